@@ -1,0 +1,226 @@
+"""The contracts of a plugin: the one file to read before writing one.
+
+A plugin is a small frozen pydantic model. Its fields are its parameters: typed, each with
+a default and a ``description`` (and bounds where they exist). It has one method to call and
+is pure: arrays in, arrays out; files, configuration and clocks belong to the workflow.
+Only a :class:`Dataset` reads files, and only under the data root it is given.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
+
+from gipkg.errors import BrokenPluginError
+
+if TYPE_CHECKING:
+    import trimesh
+
+    from gipkg.descriptors.operators import Operators
+
+API_VERSION = 1
+"""Version of these contracts; it changes when an existing plugin would have to change."""
+
+
+class Plugin(BaseModel, ABC):
+    """Base of all kinds: parameters as fields, metadata as class variables."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    summary: ClassVar[str]
+    """One line for listings and tables."""
+    citation: ClassVar[str]
+    """The publication the method comes from, as author, title, venue and year."""
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        for name, info in cls.model_fields.items():
+            if info.is_required():
+                raise BrokenPluginError(f"{cls.__name__}.{name} needs a default value")
+            if not info.description:
+                raise BrokenPluginError(
+                    f"{cls.__name__}.{name} needs a help text: Field(..., description='…')"
+                )
+
+
+@dataclass(frozen=True, slots=True)
+class SphericalMap:
+    """A mesh and the image of its vertices on the unit sphere.
+
+    Attributes
+    ----------
+    mesh : trimesh.Trimesh
+        Closed genus-0 surface with V vertices and F faces.
+    sphere : (V, 3) float64 array
+        Unit vectors, in the vertex order of `mesh`.
+    """
+
+    mesh: trimesh.Trimesh
+    sphere: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class ParametrizerTags:
+    """What a parametrizer promises; the conformance suite checks what is promised."""
+
+    guarantees: frozenset[Literal["bijective", "area", "angle"]] = frozenset()
+    deterministic: bool = True
+
+
+class Parametrizer(Plugin):
+    """Closed genus-0 mesh to unit sphere."""
+
+    tags: ClassVar[ParametrizerTags] = ParametrizerTags()
+
+    @abstractmethod
+    def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+        """Map the vertices of a closed, oriented genus-0 mesh to the unit sphere.
+
+        Parameters
+        ----------
+        mesh : trimesh.Trimesh
+            V vertices; never changed.
+
+        Returns
+        -------
+        (V, 3) float64 array
+            Unit vectors in the mesh's vertex order.
+
+        Raises
+        ------
+        UnsupportedMesh
+            The mesh is not closed, oriented, of one component and of genus 0.
+        ParametrizationError
+            A guarantee named in ``tags`` could not be kept.
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class DescriptorTags:
+    """How a descriptor behaves under changes of the surface."""
+
+    intrinsic: bool = False
+    """Unchanged by isometries, articulation included."""
+    rigid_invariant: bool = False
+    """Unchanged by rotations and translations."""
+    scale_invariant: bool = False
+
+
+class Descriptor(Plugin):
+    """Mesh to per-vertex channels."""
+
+    tags: ClassVar[DescriptorTags] = DescriptorTags()
+
+    @abstractmethod
+    def channels(self) -> tuple[str, ...]:
+        """Names of the C channels, in order."""
+
+    @abstractmethod
+    def describe(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
+        """Compute the channels at every vertex.
+
+        Parameters
+        ----------
+        mesh : trimesh.Trimesh
+            V vertices; never changed.
+        operators : Operators
+            Laplacian, mass and eigenpairs of `mesh`, computed at first use and shared.
+
+        Returns
+        -------
+        (V, C) float64 array
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class BaselineTags:
+    """How a baseline's representation is classified and compared."""
+
+    classifier: Literal["linear-svm"] = "linear-svm"
+    rigid_invariant: bool = False
+    scale_invariant: bool = False
+
+
+class Baseline(Plugin):
+    """Mesh to one representation a shape, and the classifier that goes with it.
+
+    Retrieval compares representations by the L2 distance.
+    """
+
+    tags: ClassVar[BaselineTags] = BaselineTags()
+
+    @abstractmethod
+    def represent(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
+        """Represent one closed mesh as a vector of fixed length D.
+
+        Returns
+        -------
+        (D,) float64 array
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class Shape:
+    """An entry of a database: its identifier (unique, stable) and its class."""
+
+    id: str
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Protocol:
+    """Random splits: `train_per_class` shapes of every class train, the others test."""
+
+    train_per_class: int
+
+
+@dataclass(frozen=True, slots=True)
+class DatasetTags:
+    """Where a database comes from and what it holds."""
+
+    generated: bool
+    """Made by gipkg itself; never shown under a real database's name."""
+    shapes: int
+    classes: int
+    licence: str
+    source: str
+    """Address of the files, or how they are generated."""
+    files: Mapping[str, str] = field(default_factory=dict)
+    """Path under the data root -> SHA-256 of every file that is needed."""
+
+
+class Dataset(Plugin):
+    """Name to shapes with classes, and the protocols they are split by."""
+
+    tags: ClassVar[DatasetTags]
+    protocols: ClassVar[Mapping[str, Protocol]]
+    """Name of the row in the paper's table (``SHREC1``) -> how it is split."""
+
+    @abstractmethod
+    def available(self, root: Path) -> bool:
+        """Whether `load` works with what lies under the data root; touches no network."""
+
+    @abstractmethod
+    def fetch(self, root: Path) -> None:
+        """Download and verify what is missing, into `root`.
+
+        Raises
+        ------
+        DatasetNotFound
+            It cannot be had; the message names the address and the folder to put it in.
+        """
+
+    @abstractmethod
+    def shapes(self, root: Path) -> tuple[Shape, ...]:
+        """All shapes, sorted by id, the same in every listing."""
+
+    @abstractmethod
+    def load(self, root: Path, shape_id: str) -> trimesh.Trimesh:
+        """Read one shape as it is in the database, unrepaired (``process=False``)."""

@@ -1,0 +1,54 @@
+"""Every error that gipkg raises on purpose: each says what is at fault and the way out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class GipkgError(Exception):
+    """Base of all gipkg errors; the command line prints it without a traceback."""
+
+
+class MeshFormatError(GipkgError):
+    """A file could not be read as a mesh.
+
+    Parameters
+    ----------
+    path : Path or str
+        The file at fault.
+    fault : str
+        What is wrong with it, and the way out.
+    """
+
+    def __init__(self, path: Path | str, fault: str) -> None:
+        super().__init__(f"{path}: {fault}")
+        self.path = Path(path)
+        self.fault = fault
+
+
+class UnsupportedMesh(GipkgError):
+    """A mesh is well formed but outside the domain of the method asked for."""
+
+
+class ParametrizationError(GipkgError):
+    """A parametrizer could not keep what it guarantees; no map is returned."""
+
+
+class DatasetNotFound(GipkgError):
+    """A database's files are neither under the data root nor to be downloaded."""
+
+
+class PluginError(GipkgError):
+    """Base of the errors about plugins."""
+
+
+class UnknownPluginError(PluginError):
+    """No plugin of that kind has that name; the message lists near and known names."""
+
+
+class DuplicatePluginError(PluginError):
+    """Two sources register the same name within one kind; the message names both."""
+
+
+class BrokenPluginError(PluginError):
+    """A plugin is registered but cannot be imported or breaks its contract."""
