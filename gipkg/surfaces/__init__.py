@@ -1,1 +1,1 @@
-"""TODO."""
+"""Any mesh to a closed, oriented genus-0 surface of one component."""
