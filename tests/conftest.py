@@ -1,0 +1,31 @@
+"""Fixtures shared by all tests."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+settings.register_profile("gipkg", deadline=None, print_blob=True)
+settings.load_profile("gipkg")
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+def find_data_root() -> Path | None:
+    """Return the folder of the real databases, or None where there is none."""
+    if named := os.environ.get("GIPKG_DATA_ROOT"):
+        return Path(named).resolve()
+    candidates = (REPOSITORY.parent / "shared" / "data", REPOSITORY / "data")
+    return next((folder.resolve() for folder in candidates if folder.is_dir()), None)
+
+
+@pytest.fixture(scope="session")
+def data_root() -> Path:
+    """Folder of the real databases; a test that asks for it is skipped where it is absent."""
+    root = find_data_root()
+    if root is None or not root.is_dir():
+        pytest.skip("no real databases: set GIPKG_DATA_ROOT, or put them under data/")
+    return root
