@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 
@@ -52,3 +53,19 @@ class DuplicatePluginError(PluginError):
 
 class BrokenPluginError(PluginError):
     """A plugin is registered but cannot be imported or breaks its contract."""
+
+
+class SplitError(GipkgError):
+    """A database cannot be split as a protocol asks; the message names the class at fault."""
+
+
+class InvalidParameterError(PluginError):
+    """A plugin was given a parameter it does not have, or a value outside its bounds."""
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return ``"; did you mean 'x'?"`` for the nearest of the `known` names, or nothing."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, list(known), n=1)
+    return f"; did you mean {near[0]!r}?" if near else ""
