@@ -39,6 +39,10 @@ class DatasetNotFound(GipkgError):
     """A database's files are neither under the data root nor to be downloaded."""
 
 
+class LearningError(GipkgError):
+    """A network cannot be trained on what it was given, or not on this device."""
+
+
 class PluginError(GipkgError):
     """Base of the errors about plugins."""
 
