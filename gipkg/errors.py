@@ -27,6 +27,10 @@ class MeshFormatError(GipkgError):
         self.fault = fault
 
 
+class DamagedFileError(GipkgError):
+    """A file that gipkg wrote is no longer whole; delete it and run the command again."""
+
+
 class UnsupportedMesh(GipkgError):
     """A mesh is well formed but outside the domain of the method asked for."""
 

@@ -1,0 +1,97 @@
+"""Files that are there whole or not at all, whatever moment a process is killed at."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import secrets
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+@contextmanager
+def atomic(path: Path) -> Iterator[IO[bytes]]:
+    """Open a binary file that appears under its name only when the block has ended well.
+
+    The content goes to a temporary file in the same folder, is flushed to the disk and then
+    renamed, so that a reader sees the old file or the new one. Where the block raises, the
+    temporary file is removed and nothing else has changed.
+
+    Parameters
+    ----------
+    path : Path
+        Name of the file; missing folders are made.
+
+    Yields
+    ------
+    binary file
+        Open for writing and reading.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{secrets.token_hex(8)}.part")
+    try:
+        with part.open("x+b") as stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        part.replace(path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text as UTF-8, atomically."""
+    with atomic(path) as stream:
+        stream.write(text.encode())
+
+
+def write_json(path: Path, content: Any) -> None:
+    """Write a JSON document with sorted keys, atomically; the same content, the same bytes."""
+    text = json.dumps(content, indent=2, sort_keys=True, ensure_ascii=False, allow_nan=False)
+    write_text(path, text + "\n")
+
+
+def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+    """Write a table of comma-separated values, atomically.
+
+    Raises
+    ------
+    ValueError
+        A row is shorter or longer than the header.
+    """
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(header)
+    for row in rows:
+        if len(row) != len(header):
+            raise ValueError(f"{path}: {row!r} has {len(row)} values for {len(header)} columns")
+        writer.writerow(row)
+    write_text(path, buffer.getvalue())
+
+
+def read_csv(path: Path) -> list[dict[str, str]]:
+    """Read a table written by :func:`write_csv`, a mapping from column to value for each row."""
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def write_arrays(path: Path, arrays: Mapping[str, ArrayLike]) -> None:
+    """Write named arrays as an uncompressed ``.npz``, atomically and without pickles.
+
+    Raises
+    ------
+    ValueError
+        An array holds Python objects.
+    """
+    import numpy as np
+
+    with atomic(path) as stream:
+        np.savez(stream, allow_pickle=False, **arrays)

@@ -1,0 +1,230 @@
+"""Shards: files that hold the arrays of many shapes, and the map that fills them.
+
+A database is cut into shards by a hash of the shapes' identifiers, so that adding a shape
+changes one shard only. A shard is an ``.npz`` with one member ``<quoted id>/<name>`` for every
+array and one, ``failures``, with the shapes that have none and why, as JSON. Identifiers are
+data: they are quoted, and no file on the disk is named after one.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import shutil
+import zipfile
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from hashlib import file_digest, sha256
+from pathlib import Path
+from types import MappingProxyType
+from typing import IO, Any
+from urllib.parse import quote, unquote
+
+import numpy as np
+from numpy.lib.npyio import NpzFile
+from numpy.typing import NDArray
+
+from gipkg.errors import DamagedFileError
+from gipkg.files import atomic, write_arrays
+from gipkg.progress import progress
+
+Arrays = Mapping[str, NDArray[Any]]
+"""What is known of one shape: a name for every array."""
+
+NO_FAILURES: Mapping[str, str] = MappingProxyType({})
+
+_FAILURES = "failures"
+_NOT_THE_SHAPES_FAULT = (OSError, MemoryError, ImportError, DamagedFileError)
+"""Faults of the machine or the installation: they end the job, a rerun takes it up again."""
+
+log = logging.getLogger(__name__)
+
+
+def shard_of(shape_id: str, count: int) -> int:
+    """Return the number, below `count`, of the shard a shape is in, whatever else there is."""
+    return int.from_bytes(sha256(shape_id.encode()).digest()[:8]) % count
+
+
+def content_key(parameters: Any, inputs: Iterable[Path] = ()) -> str:
+    """Hash what a computation depends on: JSON-able parameters and the bytes of its inputs.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits; equal keys mean that unfinished work can be taken up.
+    """
+    digest = sha256(json.dumps(parameters, sort_keys=True).encode())
+    for path in inputs:
+        with path.open("rb") as stream:
+            digest.update(file_digest(stream, "sha256").digest())
+    return digest.hexdigest()
+
+
+class Shard(Mapping[str, dict[str, NDArray[Any]]]):
+    """A shard file, read shape by shape: a mapping from identifier to its arrays.
+
+    Attributes
+    ----------
+    path : Path
+    ids : tuple of str
+        The shapes that have arrays, sorted.
+    failures : dict
+        Identifier -> reason, of the shapes that have none.
+    """
+
+    def __init__(
+        self, path: Path, members: Mapping[str, tuple[str, ...]], failures: dict[str, str]
+    ) -> None:
+        self.path = path
+        self.ids = tuple(members)
+        self.failures = failures
+        self._members = members
+
+    @classmethod
+    def open(cls, path: Path) -> Shard:
+        """Read the list of a shard's shapes, not yet their arrays.
+
+        Raises
+        ------
+        DamagedFileError
+            The file is not a whole shard.
+        """
+        with _reading(path) as archive:
+            failures = json.loads(str(archive[_FAILURES]))
+            members: dict[str, tuple[str, ...]] = {}
+            for key in archive.files:
+                shape, slash, name = key.partition("/")
+                if slash:
+                    members[unquote(shape)] = (*members.get(unquote(shape), ()), name)
+        return cls(path, dict(sorted(members.items())), failures)
+
+    def __getitem__(self, shape_id: str) -> dict[str, NDArray[Any]]:
+        """Read the arrays of one shape.
+
+        Raises
+        ------
+        KeyError
+            The shape is not in this shard, or failed.
+        DamagedFileError
+            A checksum inside the file does not fit.
+        """
+        names = self._members[shape_id]
+        with _reading(self.path) as archive:
+            return {unquote(name): archive[f"{_quote(shape_id)}/{name}"] for name in names}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.ids)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+
+def map_shard(
+    ids: Collection[str],
+    compute: Callable[[str], Arrays],
+    out: Path,
+    work: Path,
+    label: str,
+    *,
+    key: str,
+    failures: Mapping[str, str] = NO_FAILURES,
+) -> None:
+    """Compute the arrays of every shape and pack them into one file.
+
+    Each result is kept under ``<work>/<key>`` as soon as it is there: a job that is killed
+    and started again goes on with the shapes it had not done. The file appears at the end, at
+    once, and the folder `work` goes. The same arrays give the same bytes.
+
+    Parameters
+    ----------
+    ids : collection of str
+        The shapes to compute, unique.
+    compute : callable
+        Identifier -> one or more named arrays. Where it raises, the shape is recorded as
+        failed and the others go on.
+    out : Path
+        The shard file.
+    work : Path
+        Folder of this shard's unfinished work, used by no other shard.
+    label : str
+        What is done, for the progress display.
+    key : str
+        From :func:`content_key`; work of another key is never used.
+    failures : mapping
+        Shapes that failed in an earlier stage and why: carried on.
+    """
+    folder = work / key
+    failed = dict(failures)
+    done: dict[str, Path] = {}
+    for shape_id in progress(sorted(ids), label):
+        part = folder / f"{sha256(shape_id.encode()).hexdigest()}.npz"
+        try:
+            if not part.exists():
+                _keep(part, compute(shape_id))
+        except _NOT_THE_SHAPES_FAULT:
+            raise
+        except Exception as error:
+            failed[shape_id] = f"{type(error).__name__}: {error}"
+            log.exception("%s: %s failed", label, shape_id)
+        else:
+            done[shape_id] = part
+    _pack(out, done, failed)
+    with suppress(FileNotFoundError):
+        shutil.rmtree(work)
+
+
+def join(*shards: Shard) -> tuple[tuple[str, ...], dict[str, str]]:
+    """Return the shapes that all of the shards have, sorted, and the failures of any."""
+    shared = set.intersection(*(set(shard.ids) for shard in shards))
+    failures = {
+        shape_id: reason
+        for shard in reversed(shards)
+        for shape_id, reason in shard.failures.items()
+    }
+    return tuple(sorted(shared)), failures
+
+
+def _keep(part: Path, arrays: Arrays) -> None:
+    if not arrays:
+        raise ValueError("nothing was computed")
+    write_arrays(part, {_quote(name): array for name, array in arrays.items()})
+
+
+def _pack(out: Path, done: Mapping[str, Path], failures: Mapping[str, str]) -> None:
+    """Copy the members of the parts, never more than a buffer in memory."""
+    with atomic(out) as stream, zipfile.ZipFile(stream, "w") as archive:
+        with _member(archive, _FAILURES) as target:
+            np.lib.format.write_array(
+                target, np.array(json.dumps(failures, sort_keys=True)), allow_pickle=False
+            )
+        for shape_id, part in done.items():
+            with zipfile.ZipFile(part) as source:
+                for name in sorted(source.namelist()):
+                    stem = name.removesuffix(".npy")
+                    with (
+                        source.open(name) as content,
+                        _member(archive, f"{_quote(shape_id)}/{stem}") as target,
+                    ):
+                        shutil.copyfileobj(content, target, 1 << 20)
+
+
+def _member(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
+    # A ZipInfo carries a fixed date where a plain name would carry the clock's.
+    return archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True)
+
+
+def _quote(text: str) -> str:
+    """Quote a name so that it is one harmless component of a path: no slash, no dot."""
+    return quote(text, safe="").replace(".", "%2E")
+
+
+@contextmanager
+def _reading(path: Path) -> Iterator[NpzFile]:
+    """Open an ``.npz``, and name the file where it turns out to be damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            yield archive
+    except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        raise DamagedFileError(
+            f"{path}: not a whole shard ({error}); delete it and run the command again"
+        ) from error
