@@ -1,0 +1,112 @@
+"""What can be chosen about a network and its training: plain data, checked, without torch.
+
+The supplement that fixed the architecture was never published. Section 5 of the paper gives
+three convolutions, a fully connected layer of 48, a softmax, no padding inside and 30 epochs;
+the rest is our choice and stands here as defaults.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, PositiveInt
+
+
+class NetworkConfig(BaseModel):
+    """The shallow network: three convolutions, one fully connected layer, softmax."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    widths: tuple[PositiveInt, PositiveInt, PositiveInt] = Field(
+        default=(24, 48, 96), description="Output channels of the three convolutions."
+    )
+    features: int = Field(
+        default=48, ge=2, description="Width of the fully connected layer, the retrieval signature."
+    )
+    margin: int = Field(
+        default=4,
+        ge=0,
+        description="Pixels by which an image is continued on each side through its own "
+        "symmetry before it enters the network: 56 becomes 64.",
+    )
+    batch_normalisation: bool = Field(
+        default=True, description="Normalise the activations of every layer over the batch."
+    )
+    dropout: float = Field(
+        default=0.0,
+        ge=0.0,
+        lt=1.0,
+        description="Share of the input of the fully connected layer dropped.",
+    )
+
+
+class TrainingConfig(BaseModel):
+    """How the network is trained; nothing in it is ever chosen on a test part."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    epochs: int = Field(
+        default=6,
+        ge=1,
+        description="Passes over all views of all training shapes, in random order.",
+    )
+    minimum_steps: int = Field(
+        default=1, ge=1, description="Least number of steps, for training parts of a few shapes."
+    )
+    batch_size: int = Field(default=64, ge=2, description="Images a step.")
+    optimiser: Literal["adamw", "sgd"] = Field(
+        default="adamw", description="AdamW, or stochastic gradient descent with momentum 0.9."
+    )
+    learning_rate: float = Field(default=3e-3, gt=0, le=1, description="Highest learning rate.")
+    schedule: Literal["one-cycle", "steps"] = Field(
+        default="one-cycle",
+        description="A linear rise over the first tenth and a cosine to zero, or four equal "
+        "parts each at a tenth of the rate before.",
+    )
+    weight_decay: float = Field(default=1e-2, ge=0, description="Weight decay of the optimiser.")
+    label_smoothing: float = Field(
+        default=0.0,
+        ge=0.0,
+        lt=1.0,
+        description="Share of the target spread evenly over all classes.",
+    )
+    mirror: bool = Field(
+        default=False,
+        description="Show every other image mirrored: the image of the mirrored shape. Only "
+        "for channels that a mirror leaves unchanged, such as the HKS.",
+    )
+    scaling: Literal["channel", "none"] = Field(
+        default="channel",
+        description="Give every channel mean 0 and deviation 1 over the training part, or feed "
+        "the channels as they are.",
+    )
+    shuffle_pixels: bool = Field(
+        default=False,
+        description="A control: one random permutation of the pixels, the same for all images, "
+        "leaves the values of an image and destroys its layout.",
+    )
+    precision: Literal["auto", "float32", "bfloat16"] = Field(
+        default="auto",
+        description="Arithmetic of the training; auto is bfloat16 where the processor has "
+        "instructions for it, else float32. Prediction is always in float32.",
+    )
+    threads: int = Field(default=1, ge=1, description="Processor threads of the training.")
+
+
+AS_IN_THE_PAPER = (
+    NetworkConfig(batch_normalisation=False),
+    TrainingConfig(
+        epochs=30,
+        batch_size=64,
+        optimiser="sgd",
+        learning_rate=1e-2,
+        schedule="steps",
+        weight_decay=1e-4,
+        scaling="none",
+    ),
+)
+"""Section 5 with the raw HKS; what the paper leaves open follows the authors' later habit.
+
+Stochastic gradient descent, weight decay and falling learning rates are those of the same
+authors' SurfNet (Sinha, Unmesh, Huang & Ramani, CVPR 2017).
+"""

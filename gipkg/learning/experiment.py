@@ -1,0 +1,103 @@
+"""Train on one part of a split, predict the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import nn
+
+from gipkg.learning.config import NetworkConfig, TrainingConfig
+from gipkg.learning.device import choose_device, reproducible
+from gipkg.learning.network import ShallowNetwork
+from gipkg.learning.prediction import Prediction
+from gipkg.learning.training import train
+from gipkg.learning.views import Layout, Scale, channel_scale, no_scale, stack
+
+
+def train_and_predict(
+    images: Mapping[str, NDArray[np.float32]],
+    labels: Mapping[str, str],
+    train_ids: Sequence[str],
+    test_ids: Sequence[str],
+    *,
+    network: NetworkConfig | None = None,
+    training: TrainingConfig | None = None,
+    seed: int = 0,
+    device: str = "auto",
+    checkpoint: Path | None = None,
+) -> Prediction:
+    """Train a network on some shapes and predict others.
+
+    Nothing about the test shapes reaches the training; their labels are not even read.
+
+    Parameters
+    ----------
+    images : mapping of shape id to (V, C, n, n) float32 array
+        The V geometry images of each shape, unpadded. Read shape by shape; the training part
+        is then held in memory.
+    labels : mapping of shape id to class
+        For the training part.
+    train_ids, test_ids : sequence of str
+        The two parts; their order is part of the result.
+    network, training : optional
+        By default the network and training of today.
+    seed : int
+        Of the weights, the order of the views, dropout and the shuffled layout.
+    device : str
+        ``auto``, ``cpu``, ``cuda``, ``cuda:1``, …
+    checkpoint : Path, optional
+        Where the state of the training is kept. A killed training goes on from there and ends
+        equal to an undisturbed one; a finished one is not repeated.
+
+    Returns
+    -------
+    Prediction
+        Scores are the softmax averaged over the views of a shape, embeddings the activations
+        of the fully connected layer averaged likewise.
+
+    Raises
+    ------
+    LearningError
+        The images are too small for the network, the device is absent, or the training
+        diverged.
+    DamagedFileError
+        The checkpoint cannot be read.
+    """
+    network, training = network or NetworkConfig(), training or TrainingConfig()
+    chosen = choose_device(device)
+    classes = tuple(sorted({labels[i] for i in train_ids}))
+    targets = torch.tensor([classes.index(labels[i]) for i in train_ids])
+    size = images[train_ids[0]].shape[-1]
+    layout = Layout(network.margin, permutation(size, seed) if training.shuffle_pixels else None)
+    with reproducible(chosen, training.threads):
+        views = stack(images, train_ids, layout)
+        scale = channel_scale(views) if training.scaling == "channel" else no_scale(views)
+        for shape in views:
+            shape.copy_(scale(shape))
+        torch.manual_seed(seed)
+        model = ShallowNetwork(network, views.shape[-1], views.shape[-2], len(classes)).to(chosen)
+        train(model, views, targets, training, seed, checkpoint)
+        pooled = [pool_views(model, images[i], layout, scale) for i in test_ids]
+    scores, embeddings = (np.stack(parts) for parts in zip(*pooled, strict=True))
+    return Prediction(tuple(test_ids), classes, scores, embeddings)
+
+
+def permutation(size: int, seed: int) -> NDArray[np.int64]:
+    """Return the one random order of the pixels of all images of a shuffled layout."""
+    return np.random.default_rng(seed).permutation(size**2)
+
+
+@torch.inference_mode()
+def pool_views(
+    model: nn.Module, images: NDArray[np.float32], layout: Layout, scale: Scale
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Average softmax scores (k,) and signatures (features,) over the views of one shape."""
+    model.eval()
+    device = next(model.parameters()).device
+    views = scale(torch.from_numpy(layout(images))).permute(0, 3, 1, 2).to(device)
+    scores, signatures = model(views)
+    return scores.softmax(1).mean(0).cpu().numpy(), signatures.mean(0).cpu().numpy()

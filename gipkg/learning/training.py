@@ -1,0 +1,144 @@
+"""The training loop.
+
+It is our own, since all that a resumed training needs to be equal to an undisturbed one bit by
+bit is that every random choice is a function of the seed and the step, and that is simpler to
+see in a page than to arrange in a framework.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+from torch.nn.functional import cross_entropy
+from torch.optim import SGD, AdamW, Optimizer
+
+from gipkg.errors import LearningError
+from gipkg.learning.checkpoint import Checkpoint, fingerprint
+from gipkg.learning.config import TrainingConfig
+from gipkg.learning.device import computes_in_bfloat16
+from gipkg.progress import progress
+
+MOMENTUM = 0.9
+WARM_UP = 0.1
+SECONDS_BETWEEN_CHECKPOINTS = 20.0
+
+
+def number_of_steps(config: TrainingConfig, views: int) -> int:
+    """Count the steps of a training on that many views."""
+    return max(config.minimum_steps, math.ceil(config.epochs * views / config.batch_size))
+
+
+def learning_rate(config: TrainingConfig, done: float) -> float:
+    """Return the learning rate when the share `done` in [0, 1) of the training is over."""
+    if config.schedule == "steps":
+        return config.learning_rate * 0.1 ** int(4 * done)
+    if done < WARM_UP:
+        return config.learning_rate * done / WARM_UP
+    return config.learning_rate * 0.5 * (1 + math.cos(math.pi * (done - WARM_UP) / (1 - WARM_UP)))
+
+
+def batches(views: int, batch_size: int, seed: int, start: int) -> Iterator[NDArray[np.int64]]:
+    """Yield the views of every step from step `start` on: random permutations, end to end."""
+
+    @lru_cache(maxsize=2)
+    def permutation(epoch: int) -> NDArray[np.int64]:
+        return np.random.default_rng([seed, epoch]).permutation(views)
+
+    position = start * batch_size
+    while True:
+        epochs, places = np.divmod(np.arange(position, position + batch_size), views)
+        yield np.concatenate([permutation(e)[places[epochs == e]] for e in np.unique(epochs)])
+        position += batch_size
+
+
+def make_optimiser(network: nn.Module, config: TrainingConfig) -> Optimizer:
+    """Return the optimiser that the configuration names."""
+    if config.optimiser == "sgd":
+        return SGD(
+            network.parameters(), momentum=MOMENTUM, lr=0.0, weight_decay=config.weight_decay
+        )
+    return AdamW(network.parameters(), lr=0.0, weight_decay=config.weight_decay)
+
+
+def train(
+    network: nn.Module,
+    views: Tensor,
+    classes: Tensor,
+    config: TrainingConfig,
+    seed: int,
+    checkpoint: Path | None = None,
+) -> None:
+    """Train a network in place, on its own device.
+
+    Parameters
+    ----------
+    network : nn.Module
+        Images (B, C, H, W) to scores (B, k) and signatures.
+    views : (n, V, H, W, C) float32 tensor
+        V views of each of n shapes, in main memory.
+    classes : (n,) int64 tensor
+        Class of every shape, in [0, k).
+    config : TrainingConfig
+    seed : int
+        Of the order of the views and of dropout; the weights come as they are.
+    checkpoint : Path, optional
+        Where the state is kept; a training found there is continued.
+
+    Raises
+    ------
+    LearningError
+        The loss left the finite numbers.
+    DamagedFileError
+        The checkpoint cannot be read.
+    """
+    device = next(network.parameters()).device
+    network.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # not annotated
+    network.train()
+    optimiser = make_optimiser(network, config)
+    bfloat16 = computes_in_bfloat16(device, config.precision)
+    store, start = None, 0
+    if checkpoint is not None:
+        description = f"{config.model_dump_json()} {seed} {device.type} {bfloat16}"
+        weights = [value.cpu() for value in network.state_dict().values()]
+        store = Checkpoint(checkpoint, fingerprint(description, classes, views, *weights))
+        start = store.restore(network, optimiser, device)
+
+    flat = views.flatten(0, 1)
+    classes = classes.repeat_interleave(views.shape[1])
+    steps = number_of_steps(config, len(flat))
+    saved = time.monotonic()
+    order = batches(len(flat), config.batch_size, seed, start)
+    for step in progress(range(start, steps), "training", done=start):
+        index = torch.from_numpy(next(order))
+        images = flat[index].permute(0, 3, 1, 2)
+        if config.mirror:
+            images[::2] = images[::2].transpose(2, 3).clone()
+        for group in optimiser.param_groups:
+            group["lr"] = learning_rate(config, (step + 0.5) / steps)
+        torch.manual_seed(int(np.random.SeedSequence([seed, step]).generate_state(1, np.uint64)[0]))
+        with torch.autocast(device.type, torch.bfloat16, enabled=bfloat16):
+            scores, _ = network(images.to(device))
+            loss = cross_entropy(
+                scores, classes[index].to(device), label_smoothing=config.label_smoothing
+            )
+        if not torch.isfinite(loss):
+            raise LearningError(
+                f"training diverged at step {step} of {steps}: lower learning_rate, or set "
+                "scaling to 'channel'"
+            )
+        optimiser.zero_grad()
+        loss.backward()
+        optimiser.step()
+        if store and time.monotonic() - saved >= SECONDS_BETWEEN_CHECKPOINTS:
+            store.save(step + 1, network, optimiser)
+            saved = time.monotonic()
+    if store and start < steps:
+        store.save(steps, network, optimiser)

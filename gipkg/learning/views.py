@@ -1,0 +1,79 @@
+"""Geometry images as the network takes them: padded, in its memory layout, scaled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+
+from gipkg.images import pad
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Raw geometry images to padded views with the channels last.
+
+    Attributes
+    ----------
+    margin : int
+        Pixels of padding on each side.
+    permutation : (n * n,) int64 array or None
+        New order of the pixels of every image: the control of a shuffled layout.
+    """
+
+    margin: int
+    permutation: NDArray[np.int64] | None = None
+
+    def __call__(self, images: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Lay out the (V, C, n, n) images of one shape as (V, n + 2m, n + 2m, C) views."""
+        if self.permutation is not None:
+            flat = images.reshape(*images.shape[:2], -1)
+            images = flat[..., self.permutation].reshape(images.shape)
+        return np.moveaxis(pad(images, self.margin), 1, -1)
+
+
+@dataclass(frozen=True)
+class Scale:
+    """An affine change of every channel.
+
+    Attributes
+    ----------
+    mean, deviation : (C,) float64 tensor
+        Subtracted from the channels, then divided by.
+    """
+
+    mean: Tensor
+    deviation: Tensor
+
+    def __call__(self, views: Tensor) -> Tensor:
+        """Scale (..., C) views to float32, in float64 so that no range of values is lost."""
+        return ((views.double() - self.mean) / self.deviation).float()
+
+
+def stack(images: Mapping[str, NDArray[np.float32]], ids: Sequence[str], layout: Layout) -> Tensor:
+    """Read and lay out the images of shapes, one by one, as an (n, V, H, W, C) tensor."""
+    first = torch.from_numpy(np.ascontiguousarray(layout(images[ids[0]]), dtype=np.float32))
+    views = torch.empty((len(ids), *first.shape))
+    views[0] = first
+    for i, shape_id in enumerate(ids[1:], start=1):
+        views[i] = torch.from_numpy(layout(images[shape_id]))
+    return views
+
+
+def channel_scale(views: Tensor) -> Scale:
+    """Give every channel of (n, V, H, W, C) views mean 0 and deviation 1; a constant one 0."""
+    moments = [torch.var_mean(shape.double(), dim=(0, 1, 2), correction=0) for shape in views]
+    variances, means = map(torch.stack, zip(*moments, strict=True))
+    # Variance within the shapes plus variance between them, all shapes being of one size.
+    deviation = (variances.mean(0) + means.var(0, correction=0)).sqrt()
+    return Scale(means.mean(0), torch.where(deviation > 0, deviation, 1.0))
+
+
+def no_scale(views: Tensor) -> Scale:
+    """Leave the channels of (..., C) views as they are."""
+    channels = views.shape[-1]
+    return Scale(torch.zeros(channels).double(), torch.ones(channels).double())
