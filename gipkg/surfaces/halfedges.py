@@ -80,28 +80,34 @@ def twins(faces: Ints) -> Ints:
     return twin
 
 
-def fans(faces: Ints, edges: Edges) -> tuple[int, Ints]:
-    """Count and label the fans of faces around vertices, joined across two-face edges.
+def fans(faces: Ints, pairs: Ints) -> tuple[int, Ints]:
+    """Count and label the fans of faces around vertices.
+
+    Parameters
+    ----------
+    faces : (F, 3) int array
+    pairs : (P, 2) int array
+        Half-edges across which two faces are joined.
 
     Returns
     -------
     count : int
         Number of fans; equals the number of used vertices where all vertices are manifold.
     label : (3F,) int array
-        Fan of every corner.
+        Fan of every corner, numbered by first appearance.
     """
     origin, _ = endpoints(faces)
-    one, two = edges.pairs().T
+    one, two = pairs.T
     one_end, two_end = next_halfedge(one), next_halfedge(two)
-    agree = origin[one] == origin[two]
+    agree = origin[one] != origin[two]
     rows = np.concatenate((one, one_end))
-    columns = np.concatenate((np.where(agree, two, two_end), np.where(agree, two_end, two)))
+    columns = np.concatenate((np.where(agree, two_end, two), np.where(agree, two, two_end)))
     return _components(3 * len(faces), rows, columns)
 
 
-def components(faces: Ints, edges: Edges) -> tuple[int, Ints]:
-    """Count and label the pieces of the surface, joined across two-face edges: (F,) int."""
-    one, two = edges.pairs().T
+def components(faces: Ints, pairs: Ints) -> tuple[int, Ints]:
+    """Count and label the parts of a surface joined across `pairs`: a number and (F,) ints."""
+    one, two = pairs.T
     return _components(len(faces), one // 3, two // 3)
 
 

@@ -57,7 +57,7 @@ def genus_zero_faults(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -
     edge_faults = list(_edge_faults(edges))
     yield from edge_faults
     if not edge_faults:
-        yield from _global_faults(faces, edges)
+        yield from _global_faults(faces, edges.pairs())
 
 
 def array_fault(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> str | None:
@@ -99,13 +99,13 @@ def _edge_faults(edges: halfedges.Edges) -> Iterator[str]:
         yield f"the two faces at {opposed} edges are oriented against each other"
 
 
-def _global_faults(faces: NDArray[np.int64], edges: halfedges.Edges) -> Iterator[str]:
+def _global_faults(faces: NDArray[np.int64], pairs: NDArray[np.int64]) -> Iterator[str]:
     """Name the faults of a surface whose edges all join two faces of one orientation."""
     used = np.count_nonzero(np.bincount(faces.ravel()))
-    fan_count, _ = halfedges.fans(faces, edges)
+    fan_count, _ = halfedges.fans(faces, pairs)
     if fan_count > used:
         yield f"{fan_count - used} vertices pinch the surface (their faces form several fans)"
-    component_count, _ = halfedges.components(faces, edges)
+    component_count, _ = halfedges.components(faces, pairs)
     if component_count > 1:
         yield f"it has {component_count} components"
     # With pinched vertices counted once a fan, V - E + F = 2 (components - genus), E = 3F/2.

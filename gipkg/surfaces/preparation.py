@@ -1,0 +1,167 @@
+"""From any mesh to a closed genus-0 surface: the steps, their order and their record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from pydantic import ConfigDict, Field, validate_call
+
+from gipkg.errors import UnsupportedMesh
+from gipkg.surfaces import cleaning, genus, holes, parts, slivers, splitting
+from gipkg.surfaces.reading import load_mesh
+from gipkg.surfaces.report import Report, Step, count
+from gipkg.surfaces.triangles import Triangles
+from gipkg.surfaces.validation import array_fault, check_genus_zero, genus_zero_faults
+
+Share = Annotated[float, Field(ge=0, le=1)]
+Figures = dict[str, int | float | list[float]]
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """A closed, outward oriented genus-0 surface of one component, and how it came about.
+
+    Attributes
+    ----------
+    mesh : trimesh.Trimesh
+        V vertices; those that were kept come first and in their order.
+    mask : (V,) bool array
+        The topological mask: True on the original surface, False at the vertices of what
+        was added to close it.
+    report : Report
+        What was done.
+    """
+
+    mesh: trimesh.Trimesh
+    mask: NDArray[np.bool_]
+    report: Report
+
+
+@validate_call(config=ConfigDict(arbitrary_types_allowed=True))
+def prepare(
+    source: trimesh.Trimesh | Path | str,
+    *,
+    merge_tolerance: Share = 1e-7,
+    smallest_part: Share = 0.5,
+    largest_hole: Share = 0.4,
+) -> Surface:
+    """Make a closed, oriented genus-0 surface of one component out of a mesh.
+
+    What is one already stays as it is, bit by bit. Otherwise, as far as needed: coinciding
+    border vertices are merged, duplicate faces removed, non-manifold edges and vertices
+    split, the largest part kept and oriented, holes capped, handles cut along their
+    shortest loop and capped, and faces without area resolved.
+
+    Parameters
+    ----------
+    source : trimesh.Trimesh or Path or str
+        A mesh, which is not changed, or a file to read.
+    merge_tolerance : float
+        Largest distance of border vertices that are merged, as a share of the bounding
+        box's diagonal.
+    smallest_part : float
+        Least area of the largest part, as a share of all parts'; the others are dropped.
+    largest_hole : float
+        Largest area of the cap over a hole, as a share of the closed surface's.
+
+    Returns
+    -------
+    Surface
+
+    Raises
+    ------
+    MeshFormatError
+        The file is not readable as a mesh.
+    UnsupportedMesh
+        The mesh cannot be repaired this way; the message says why, and what to do.
+    """
+    mesh = source if isinstance(source, trimesh.Trimesh) else load_mesh(source)
+    name = mesh.metadata.get("file_name") or "the mesh"
+    vertices = np.array(mesh.vertices, np.float64)
+    faces = np.array(mesh.faces, np.int64)
+    if fault := array_fault(vertices, faces):
+        raise UnsupportedMesh(f"{name} is not a triangle mesh: {fault}. Correct its arrays")
+    pipeline = _Pipeline(Triangles(vertices, faces, np.ones(len(vertices), bool)))
+    before = count(vertices, faces)
+    try:
+        pipeline.run(merge_tolerance, smallest_part, largest_hole)
+    except UnsupportedMesh as error:
+        raise UnsupportedMesh(f"{name}: {error}") from error
+    result, steps = pipeline.mesh, tuple(pipeline.steps)
+    after = count(result.vertices, result.faces) if steps else before
+    prepared = trimesh.Trimesh(
+        result.vertices, result.faces, process=False, metadata={"file_name": str(name)}
+    )
+    if steps:
+        check_genus_zero(prepared)
+    return Surface(prepared, result.original, Report(before, after, steps))
+
+
+class _Pipeline:
+    """The mesh under repair and the record of the steps that changed it."""
+
+    def __init__(self, mesh: Triangles) -> None:
+        self.mesh = mesh
+        self.steps: list[Step] = []
+
+    def run(self, merge_tolerance: float, smallest_part: float, largest_hole: float) -> None:
+        """Do what is needed, in order."""
+        if any(genus_zero_faults(self.mesh.vertices, self.mesh.faces)):
+            self._clean(merge_tolerance)
+            self._take_largest_part(smallest_part)
+            self._count("orient faces", "faces", parts.orient_consistently)
+            self._count("fill holes", "holes", lambda m: holes.fill_holes(m, largest_hole))
+            self._remove_handles()
+            self._resolve_slivers()
+        self._count("turn outward", "faces", parts.orient_outward)
+
+    def _clean(self, merge_tolerance: float) -> None:
+        self._count("remove collapsed faces", "faces", cleaning.remove_collapsed_faces)
+        self._count(
+            "merge border vertices",
+            "vertices",
+            lambda m: cleaning.merge_border_vertices(m, merge_tolerance),
+        )
+        self._count("remove faces collapsed by merging", "faces", cleaning.remove_collapsed_faces)
+        self._count("remove duplicate faces", "faces", cleaning.remove_duplicate_faces)
+        self._count("remove unused vertices", "vertices", cleaning.remove_unused_vertices)
+        self._count("split non-manifold", "added vertices", splitting.split_nonmanifold)
+
+    def _take_largest_part(self, smallest_part: float) -> None:
+        mesh, dropped, share = parts.largest_part(self.mesh)
+        if share < smallest_part:
+            raise UnsupportedMesh(
+                f"the largest of its {dropped + 1} parts has only {share:.0%} of the area, less "
+                f"than {smallest_part:.0%}, so most of the shape would be lost. Join the parts "
+                "to one solid, or pass smallest_part=0 to keep the largest all the same"
+            )
+        if dropped:
+            self._record("keep largest part", mesh, {"dropped parts": dropped, "area share": share})
+
+    def _remove_handles(self) -> None:
+        mesh, lengths = genus.remove_handles(self.mesh)
+        if lengths:
+            self._record("cut handles", mesh, {"handles": len(lengths), "loop lengths": lengths})
+
+    def _resolve_slivers(self) -> None:
+        mesh, resolved = slivers.resolve_slivers(self.mesh)
+        if any(asdict(resolved).values()):
+            self._record("resolve slivers", mesh, asdict(resolved))
+
+    def _count(
+        self, name: str, counted: str, step: Callable[[Triangles], tuple[Triangles, int]]
+    ) -> None:
+        """Run a step and record it where it changed something."""
+        mesh, number = step(self.mesh)
+        if number:
+            self._record(name, mesh, {counted: number})
+
+    def _record(self, name: str, mesh: Triangles, figures: Figures) -> None:
+        self.mesh = mesh
+        self.steps.append(Step(name, figures))
