@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     from gipkg.descriptors.operators import Operators
 
+ROUND_OFF = 1e-9
+"""A second eigenvalue times the area that is no larger stands for a second component."""
+
 
 class ShapeDNA(Baseline):
     """Logarithms of the first eigenvalues times the surface area, the zero one left out.
@@ -47,6 +50,6 @@ class ShapeDNA(Baseline):
                 f"{len(spectrum.eigenvalues)} eigenpairs are too few for {self.eigenvalues} "
                 "positive eigenvalues: compute more, or refine the mesh"
             )
-        if values[0] <= 0:
+        if values[0] <= ROUND_OFF:
             raise UnsupportedMesh("the surface is not connected: its second eigenvalue is 0")
         return np.log(values)
