@@ -29,7 +29,7 @@ class Spectrum:
         Ascending, none negative, the first exactly 0; in units of 1 / area.
     eigenvectors : (V, k) float64 array
         Orthonormal with respect to the mass: ``Φᵀ diag(mass) Φ = I``. Of the two signs, the
-        one that makes the entry of largest magnitude positive.
+        one that makes the entry of largest magnitude positive (the first of several).
     mass : (V,) float64 array
         Barycentric vertex areas; they sum to the surface area.
     """
@@ -55,7 +55,7 @@ class Operators:
     ------
     UnsupportedMesh
         At construction if `spectrum` is of a mesh with another number of vertices, at first
-        use if the mesh has no finite positive area at some vertex.
+        use if coordinates are not finite or a vertex is in no face.
     """
 
     def __init__(
@@ -72,6 +72,10 @@ class Operators:
 
     @cached_property
     def _lengths(self) -> NDArray[np.float64]:
+        if not np.isfinite(self.mesh.vertices).all():
+            raise UnsupportedMesh(
+                "the mesh has non-finite coordinates: read it with gipkg.prepare, which names them"
+            )
         return edge_lengths(self.mesh)
 
     @cached_property
@@ -85,11 +89,10 @@ class Operators:
         if self._known is not None:
             return self._known.mass
         mass = barycentric_mass(self.mesh, self._lengths)
-        if not (np.isfinite(mass) & (mass > 0)).all():
-            vertex = int(np.argmin(np.isfinite(mass) & (mass > 0)))
+        if not mass.all():
             raise UnsupportedMesh(
-                f"vertex {vertex} has area {mass[vertex]}: remove unreferenced vertices and "
-                "non-finite coordinates (gipkg.prepare does)"
+                f"vertex {int(np.argmin(mass))} has no area: remove unreferenced vertices "
+                "(gipkg.prepare does)"
             )
         return mass
 
@@ -121,8 +124,14 @@ def _solve(laplacian: sp.csr_array, mass: NDArray[np.float64], eigenpairs: int) 
         order = np.argsort(values, kind="stable")
         values, vectors = values[order], vectors[:, order]
     vectors = vectors / (root * np.sqrt(area))[:, None]
-    largest = np.abs(vectors).argmax(axis=0)
-    vectors *= np.sign(vectors[largest, np.arange(k)])
+    vectors *= _signs(vectors)
     values = np.maximum(values, 0.0) / area
     values[0] = 0.0
     return Spectrum(values, vectors, mass)
+
+
+def _signs(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Signs (k,) of the first entries about as large as any; symmetric shapes have several."""
+    sizes = np.abs(vectors)
+    first = (sizes > 0.99 * sizes.max(axis=0)).argmax(axis=0)
+    return np.sign(vectors[first, np.arange(vectors.shape[1])])

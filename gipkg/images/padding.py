@@ -12,7 +12,10 @@ class Indexable(Protocol):
     """What is needed of NumPy arrays and torch tensors alike, without importing torch."""
 
     @property
-    def shape(self) -> tuple[int, ...]: ...
+    def shape(self) -> tuple[int, ...]:
+        """Sizes of the axes, the last two rows and columns."""
+        ...
+
     def __getitem__(self, index: Any, /) -> Any: ...
 
 
