@@ -45,7 +45,8 @@ def locate(
     """
     corners = np.ascontiguousarray(faces, dtype=np.int64)
     neighbours = twins(corners).reshape(-1, 3) // 3
-    return _locate(np.ascontiguousarray(sphere), corners, neighbours, directions, width)
+    points = np.ascontiguousarray(sphere, dtype=np.float64)
+    return _locate(points, corners, neighbours, directions, width)
 
 
 REACH = 1e-9

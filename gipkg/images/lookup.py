@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
 from gipkg.errors import UnsupportedMesh
+from gipkg.images.location import locate
 from gipkg.images.octahedron import Sampling, pixel_directions
 from gipkg.images.seam import canonical_pixels
 from gipkg.surfaces.validation import check_genus_zero
@@ -95,8 +96,6 @@ def lookup(
     UnsupportedMesh
         The mesh is not a closed genus-0 surface, or its map does not cover the sphere.
     """
-    from gipkg.images.location import locate  # numba: half a second that padding must not cost
-
     mesh = spherical_map.mesh
     check_genus_zero(mesh)
     faces = np.asarray(mesh.faces)
@@ -114,7 +113,7 @@ def lookup(
     shape = (len(inverse), size, size)
     return PixelLookup(
         faces,
-        # Located once, shown on both sides of the cut: equal to the last bit.
+        # Which of two faces a pixel between them gets is decided once for both sides of the cut.
         face.reshape(len(inverse), -1)[:, canonical].reshape(shape),
         weights.reshape(len(inverse), -1, 3)[:, canonical].reshape(*shape, 3),
         len(mesh.vertices),

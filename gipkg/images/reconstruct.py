@@ -46,19 +46,9 @@ def _triangles(size: int) -> NDArray[np.int64]:
     middle = (size - 1) / 2
     below, right = (np.indices((size - 1, size - 1)) + 0.5 > middle).reshape(2, -1)
     rising = below == right  # from the lower left to the upper right
-    triangles = np.stack(
-        [
-            np.where(
-                rising, [upper_left, lower_left, upper_right], [upper_left, lower_left, lower_right]
-            ),
-            np.where(
-                rising,
-                [lower_left, lower_right, upper_right],
-                [upper_left, lower_right, upper_right],
-            ),
-        ]
-    )
-    triangles = np.moveaxis(triangles, 1, -1).reshape(-1, 3)
+    first = (upper_left, lower_left, np.where(rising, upper_right, lower_right))
+    second = (np.where(rising, lower_left, upper_left), lower_right, upper_right)
+    triangles = np.stack([first, second], axis=-1).transpose(1, 2, 0).reshape(-1, 3)
     shared = canonical_pixels(size).ravel()[triangles]
     # With an even size, the middle square of each side has its two border pixels identified.
     collapsed = (shared == np.roll(shared, 1, axis=1)).any(axis=1)
