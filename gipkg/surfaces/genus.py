@@ -73,7 +73,7 @@ def _runs_along(
 
 
 def _way_back(mesh: Triangles, border: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return (n, 3) vectors from the border's vertices to the mean of their neighbours off the border."""
+    """Return (n, 3) ways from the border to the mean of each vertex's neighbours off it."""
     place = np.full(len(mesh.vertices), -1)
     place[border] = np.arange(len(border))
     origin, target = halfedges.endpoints(mesh.faces)

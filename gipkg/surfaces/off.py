@@ -18,7 +18,7 @@ from gipkg.surfaces.polygons import triangulate_polygons
 
 Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
-_HEADER = re.compile(rb"\s*(?:ST)?C?N?(4?)(n?)OFF[ \t]*(BINARY)?[ \t]*\r?\n?")
+_HEADER = re.compile(rb"(?:\s|#[^\r\n]*)*(?:ST)?C?N?(4?)(n?)OFF[ \t]*(BINARY)?[ \t]*\r?\n?")
 _COMMENT = re.compile(rb"#[^\r\n]*")
 
 
@@ -37,9 +37,6 @@ def read_off(path: Path) -> Arrays:
     """
     data = path.read_bytes()
     header = _HEADER.match(data)
-    if header is None:
-        header = _HEADER.match(_COMMENT.sub(b"", data))
-        data = _COMMENT.sub(b"", data) if header else data
     if header is None:
         raise MeshFormatError(path, "the header OFF is missing")
     if header[1] or header[2]:

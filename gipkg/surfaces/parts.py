@@ -11,6 +11,9 @@ from gipkg.surfaces import halfedges
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.validation import face_areas
 
+THINNEST = 1e-6
+"""Least enclosed volume, over area to the power 3/2 (a sphere: 0.09; a sheet of paper: 1e-4)."""
+
 
 def largest_part(mesh: Triangles) -> tuple[Triangles, int, float]:
     """Keep the connected part of the largest area.
@@ -54,14 +57,30 @@ def orient_consistently(mesh: Triangles) -> tuple[Triangles, int]:
     kept, turned = label[:size], label[size:]
     if (kept == turned).any():
         raise UnsupportedMesh(
-            "the surface has one side only (like a Möbius strip), so it bounds no solid; "
-            "cut it or give it thickness before preparing it"
+            "the surface has one side only (like a Möbius strip), so it bounds no solid. Cut it, "
+            "or make the orientation of its faces agree, before preparing it"
         )
     area = np.bincount(kept, face_areas(mesh.vertices, faces), minlength=label.max() + 1)
     turn = (area[turned] > area[kept]) | ((area[turned] == area[kept]) & (turned < kept))
     if not turn.any():
         return mesh, 0
     return mesh.with_faces(np.where(turn[:, None], faces[:, ::-1], faces)), int(turn.sum())
+
+
+def require_volume(mesh: Triangles) -> None:
+    """Accept a closed surface that bounds a solid.
+
+    Raises
+    ------
+    UnsupportedMesh
+        It is folded flat and encloses nothing.
+    """
+    area = face_areas(mesh.vertices, mesh.faces).sum()
+    if abs(enclosed_volume(mesh)) < THINNEST * area**1.5:
+        raise UnsupportedMesh(
+            "closed up it is a folded sheet that encloses no volume, so it bounds no solid. "
+            "Give the sheet thickness before preparing it"
+        )
 
 
 def orient_outward(mesh: Triangles) -> tuple[Triangles, int]:

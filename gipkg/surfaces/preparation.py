@@ -119,6 +119,7 @@ class _Pipeline:
             self._count("fill holes", "holes", lambda m: holes.fill_holes(m, largest_hole))
             self._remove_handles()
             self._resolve_slivers()
+            parts.require_volume(self.mesh)
         self._count("turn outward", "faces", parts.orient_outward)
 
     def _clean(self, merge_tolerance: float) -> None:
