@@ -1,0 +1,79 @@
+"""What a spherical map does to areas (paper, Section 5; one meaning per number)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gipkg.api import SphericalMap
+from gipkg.parametrizers.spherical_areas import flipped_faces, signed_spherical_areas
+from gipkg.surfaces.validation import face_areas
+
+
+@dataclass(frozen=True, slots=True)
+class Distortion:
+    """Areas of a map and what follows from them.
+
+    Both surfaces are scaled to a total area of 4π; r is sphere area over mesh area.
+
+    Attributes
+    ----------
+    spherical_areas : (F,) float64 array
+        Signed areas on the sphere, in steradians.
+    mesh_areas : (F,) float64 array
+        Areas on the mesh, scaled to sum to 4π.
+    flips : int
+        Faces whose signed area is not positive, decided exactly.
+    degree : float
+        Signed areas over 4π; 1 for a map that covers the sphere once.
+    face_std, vertex_std : float
+        Standard deviation of r - 1 over faces, and over vertices (a third of their faces).
+    variance : float
+        The paper's δh·A: variance over faces of sphere area minus mesh area. It falls with
+        resolution: compare it at equal numbers of faces only.
+    """
+
+    spherical_areas: NDArray[np.float64]
+    mesh_areas: NDArray[np.float64]
+    flips: int
+    degree: float
+    face_std: float
+    vertex_std: float
+    variance: float
+
+
+def distortion(spherical_map: SphericalMap) -> Distortion:
+    """Measure the area distortion of a spherical map.
+
+    Parameters
+    ----------
+    spherical_map : SphericalMap
+        Map of a mesh whose faces all have an area.
+
+    Returns
+    -------
+    Distortion
+    """
+    faces = np.asarray(spherical_map.mesh.faces)
+    on_mesh = face_areas(np.asarray(spherical_map.mesh.vertices), faces)
+    on_mesh *= 4 * np.pi / on_mesh.sum()
+    on_sphere = signed_spherical_areas(spherical_map.sphere, faces)
+    vertex_ratio = _at_vertices(on_sphere, faces) / _at_vertices(on_mesh, faces)
+    return Distortion(
+        spherical_areas=on_sphere,
+        mesh_areas=on_mesh,
+        flips=int(np.count_nonzero(flipped_faces(spherical_map.sphere, faces))),
+        degree=float(on_sphere.sum() / (4 * np.pi)),
+        face_std=float(np.std(on_sphere / on_mesh)),
+        vertex_std=float(np.std(vertex_ratio)),
+        variance=float(np.var(on_sphere - on_mesh)),
+    )
+
+
+def _at_vertices(areas: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Share the area of every face among its three corners: (F,) -> (V,)."""
+    shared = np.zeros(faces.max() + 1)
+    np.add.at(shared, faces.ravel(), np.repeat(areas / 3, 3))
+    return shared
