@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
-from tests.support.shapes import ellipsoid, icosphere
 
 from gipkg.parametrizers.energy import MapEnergy
 from gipkg.parametrizers.optimal_map import _triangle_shapes
+from tests.support.shapes import ellipsoid, icosphere
 
 
-def _energy(mesh, shape: float) -> MapEnergy:  # noqa: ANN001
+def _energy(mesh, shape: float) -> MapEnergy:
     areas, cotangents = _triangle_shapes(np.asarray(mesh.vertices), np.asarray(mesh.faces))
     targets = areas * 4 * np.pi / areas.sum()
     weights = np.sqrt(targets * targets.mean())

@@ -1,24 +1,24 @@
 import numpy as np
 import pytest
-from tests.support.shapes import icosphere, needle, urchin
 
 from gipkg.parametrizers.edge_collapse import gather_ring, split
 from gipkg.parametrizers.hierarchy import coarsen
 from gipkg.surfaces.halfedges import twins
+from tests.support.shapes import icosphere, needle, urchin
 
 MESHES = {"sphere": icosphere(2), "urchin": urchin(12, 3.0, 3), "needle": needle()}
 
 
 @pytest.fixture(params=MESHES, scope="module")
-def mesh(request: pytest.FixtureRequest):  # noqa: ANN201
+def mesh(request: pytest.FixtureRequest):
     return MESHES[request.param]
 
 
-def _areas(mesh) -> np.ndarray:  # noqa: ANN001
+def _areas(mesh) -> np.ndarray:
     return mesh.area_faces * 4 * np.pi / mesh.area
 
 
-def test_it_ends_at_a_tetrahedron_that_carries_all_area(mesh) -> None:  # noqa: ANN001
+def test_it_ends_at_a_tetrahedron_that_carries_all_area(mesh) -> None:
     hierarchy = coarsen(mesh.vertices, mesh.faces, _areas(mesh))
     faces = hierarchy.origin.reshape(-1, 3)[hierarchy.present]
     assert faces.shape == (4, 3)
@@ -29,7 +29,7 @@ def test_it_ends_at_a_tetrahedron_that_carries_all_area(mesh) -> None:  # noqa: 
     assert hierarchy.areas[hierarchy.present].sum() == pytest.approx(4 * np.pi, abs=1e-9)
 
 
-def test_undoing_every_collapse_gives_the_mesh_back(mesh) -> None:  # noqa: ANN001
+def test_undoing_every_collapse_gives_the_mesh_back(mesh) -> None:
     areas = _areas(mesh)
     h = coarsen(mesh.vertices, mesh.faces, areas)
     ring, spokes = np.zeros((2, len(mesh.vertices)), np.int64)
@@ -43,7 +43,7 @@ def test_undoing_every_collapse_gives_the_mesh_back(mesh) -> None:  # noqa: ANN0
     np.testing.assert_array_equal(h.areas, areas)
 
 
-def test_no_level_removes_two_neighbours(mesh) -> None:  # noqa: ANN001
+def test_no_level_removes_two_neighbours(mesh) -> None:
     h = coarsen(mesh.vertices, mesh.faces, _areas(mesh))
     neighbours = {frozenset(edge) for edge in mesh.edges_unique}
     first = set(h.vertices[h.levels[0] : h.levels[1]])

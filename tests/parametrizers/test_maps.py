@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 import trimesh
-from tests.support.shapes import ellipsoid, icosphere, needle, urchin
 
 from gipkg.datasets.shrec11 import Shrec11
 from gipkg.errors import UnsupportedMesh
 from gipkg.evaluation.distortion import distortion
 from gipkg.parametrizers import parametrize
 from gipkg.surfaces.validation import genus_zero_faults
+from tests.support.shapes import ellipsoid, icosphere, needle, urchin
 
 HARD = {
     "ellipsoid": ellipsoid(1, 1, 20),
@@ -19,14 +19,14 @@ HARD = {
 }
 
 
-def _assert_bijective(spherical_map) -> None:  # noqa: ANN001
+def _assert_bijective(spherical_map) -> None:
     measured = distortion(spherical_map)
     assert (measured.spherical_areas > 0).all()
     assert measured.flips == 0
     assert measured.spherical_areas.sum() == pytest.approx(4 * np.pi, abs=1e-9)
 
 
-def _angle_distortion(spherical_map) -> float:  # noqa: ANN001
+def _angle_distortion(spherical_map) -> float:
     """Median over faces of the ratio of the two singular values of the map."""
 
     def frames(points: np.ndarray) -> np.ndarray:
@@ -98,7 +98,7 @@ def test_meshes_outside_the_domain_are_refused() -> None:
 
 
 @pytest.mark.parametrize("method", ["authalic", "conformal"])
-def test_real_articulated_shapes(data_root, method: str) -> None:  # noqa: ANN001
+def test_real_articulated_shapes(data_root, method: str) -> None:
     database = Shrec11()
     meshes = [database.load(data_root, shape.id) for shape in database.shapes(data_root)[::20]]
     closed = [m for m in meshes if not list(genus_zero_faults(m.vertices, m.faces))]
@@ -114,7 +114,7 @@ def test_real_articulated_shapes(data_root, method: str) -> None:  # noqa: ANN00
 
 
 @pytest.mark.parametrize("name", ["hand", "homer", "david1", "camel"])
-def test_real_scans(data_root, name: str) -> None:  # noqa: ANN001
+def test_real_scans(data_root, name: str) -> None:
     mesh = trimesh.load(data_root / "surfaces" / "closed" / f"{name}.off", process=False)
     spherical_map = parametrize(mesh, max_iterations=20)
     _assert_bijective(spherical_map)
