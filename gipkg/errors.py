@@ -43,6 +43,10 @@ class DatasetNotFound(GipkgError):
     """A database's files are neither under the data root nor to be downloaded."""
 
 
+class TooManyFailures(GipkgError):
+    """More shapes of a database failed than a run allows; the message lists them."""
+
+
 class LearningError(GipkgError):
     """A network cannot be trained on what it was given, or not on this device."""
 

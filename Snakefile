@@ -1,0 +1,21 @@
+from pathlib import Path
+
+configfile: Path(workflow.basedir) / "config" / "config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/datasets.smk"
+include: "workflow/rules/surfaces.smk"
+include: "workflow/rules/parametrize.smk"
+include: "workflow/rules/describe.smk"
+include: "workflow/rules/images.smk"
+include: "workflow/rules/learn.smk"
+include: "workflow/rules/baselines.smk"
+include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/tables.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        "results/table1.csv",

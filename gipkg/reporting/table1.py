@@ -1,0 +1,179 @@
+"""Table 1 of the paper: classification and retrieval, a row for each database and split."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import mean, stdev
+from typing import Any
+
+from gipkg.files import read_csv
+
+METRICS = ("accuracy", "mAP")
+"""Accuracy in percent, mean average precision in 0 to 1, as the paper prints them."""
+
+_DIGITS = {"accuracy": 2, "mAP": 4}
+_ABSENT = "–"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """What one method reached on one row: a value for each random split, per metric."""
+
+    accuracy: tuple[float, ...]
+    mAP: tuple[float, ...]  # noqa: N815 - its name in the literature
+
+    @classmethod
+    def of(cls, scores: Sequence[Mapping[str, Any]]) -> Cell:
+        """Gather the scores of all splits (:class:`gipkg.evaluation.scores.Scores`, as JSON)."""
+        return cls(
+            accuracy=tuple(100 * split["accuracy"] for split in scores),
+            mAP=tuple(split["mean_average_precision"] for split in scores),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A database under one protocol.
+
+    Attributes
+    ----------
+    database : str
+        Its name in the configuration.
+    split : str
+        Name of the protocol, which is the name of the row in the paper if it is there.
+    cells : mapping
+        Heading of a column -> its values.
+    """
+
+    database: str
+    split: str
+    cells: Mapping[str, Cell]
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The paper's own figures.
+
+    Attributes
+    ----------
+    methods : tuple of str
+        Its columns, in order.
+    figures : dict
+        (row, method) -> accuracy and mAP as printed; what the paper leaves out is left out.
+    """
+
+    methods: tuple[str, ...]
+    figures: Mapping[tuple[str, str], tuple[str, str]]
+
+
+def read_reference(path: Path) -> Reference:
+    """Read the paper's table from its transcription."""
+    rows = read_csv(path)
+    methods = tuple(name.removesuffix(" mAP") for name in rows[0] if name.endswith(" mAP"))
+    figures = {
+        (row["database"], method): (row[f"{method} accuracy"], row[f"{method} mAP"])
+        for row in rows
+        for method in methods
+        if row[f"{method} accuracy"]
+    }
+    return Reference(methods, figures)
+
+
+def as_csv(rows: Sequence[Row], columns: Sequence[str]) -> tuple[list[str], list[list[str]]]:
+    """Lay the table out with every figure in a column of its own.
+
+    Returns
+    -------
+    header : list of str
+        ``database``, ``split``, and four for every column: mean and sample standard deviation
+        of accuracy and mAP over the random splits.
+    lines : list of list of str
+        A standard deviation of a single split is empty.
+    """
+    header = ["database", "split"]
+    header += [
+        f"{column} {metric} {part}"
+        for column in columns
+        for metric in METRICS
+        for part in ("mean", "std")
+    ]
+    lines = [
+        [row.database, row.split]
+        + [
+            figure
+            for column in columns
+            for metric in METRICS
+            for figure in _mean_and_std(row.cells[column], metric)
+        ]
+        for row in rows
+    ]
+    return header, lines
+
+
+def as_markdown(
+    rows: Sequence[Row],
+    columns: Mapping[str, str | None],
+    reference: Reference,
+    notes: Sequence[str],
+) -> str:
+    """Set the table beside the paper's.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+    columns : mapping
+        Heading -> name of the same method in the paper, None where it has none.
+    reference : Reference
+    notes : sequence of str
+        What a reader has to know, a paragraph each.
+    """
+    lines = [
+        "# Table 1: classification and retrieval of non-rigid shapes",
+        "",
+        "Accuracy in % / mean average precision: mean ± standard deviation over random splits.",
+        "The paper's own figures stand below ours, in italics.",
+        "",
+        _line(["", *columns]),
+        _line(["---"] * (len(columns) + 1)),
+    ]
+    for row in rows:
+        lines.append(_line([f"**{row.split}**", *(_measured(row.cells[name]) for name in columns)]))
+        printed = [reference.figures.get((row.split, name or "")) for name in columns.values()]
+        if any(printed):
+            cells = [
+                f"*{figures[0]} / {figures[1]}*" if figures else _ABSENT for figures in printed
+            ]
+            lines.append(_line(["*in the paper*", *cells]))
+    lines += ["", "## Notes", "", *(f"- {note}" for note in notes)]
+    lines += ["", "## The paper's table in full", "", *_printed(reference)]
+    return "\n".join(lines) + "\n"
+
+
+def _printed(reference: Reference) -> list[str]:
+    splits = list(dict.fromkeys(split for split, _ in reference.figures))
+    cells = {key: " / ".join(figures) for key, figures in reference.figures.items()}
+    return [
+        _line(["", *reference.methods]),
+        _line(["---"] * (len(reference.methods) + 1)),
+        *(
+            _line([split, *(cells.get((split, name), _ABSENT) for name in reference.methods)])
+            for split in splits
+        ),
+    ]
+
+
+def _measured(cell: Cell) -> str:
+    figures = (_mean_and_std(cell, metric) for metric in METRICS)
+    return " / ".join(f"{value} ± {std}" if std else value for value, std in figures)
+
+
+def _mean_and_std(cell: Cell, metric: str) -> tuple[str, str]:
+    values, digits = getattr(cell, metric), _DIGITS[metric]
+    std = f"{stdev(values):.{digits}f}" if len(values) > 1 else ""
+    return f"{mean(values):.{digits}f}", std
+
+
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"

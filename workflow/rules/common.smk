@@ -1,0 +1,199 @@
+import os
+import re
+from pathlib import Path
+
+import yaml
+from jsonschema import Draft202012Validator
+from jsonschema.exceptions import best_match
+from snakemake.exceptions import WorkflowError
+from snakemake.utils import min_version
+
+from gipkg import registry
+from gipkg.errors import PluginError, did_you_mean
+from gipkg.fingerprints import fingerprint_module
+from gipkg.learning.config import NetworkConfig, TrainingConfig
+from gipkg.parameters import validated
+
+min_version("9.9")
+
+# One thread a job: several jobs use the cores better than several threads do.
+os.environ["NUMBA_NUM_THREADS"] = "1"
+
+
+def require_valid(config):
+    """Stop at the first fault of the configuration, naming the key and the choices."""
+    path = Path(workflow.basedir) / "workflow" / "schemas" / "config.schema.yaml"
+    schema = yaml.safe_load(path.read_text(encoding="utf-8"))
+    error = best_match(Draft202012Validator(schema).iter_errors(config))
+    if error is not None:
+        key = ".".join(map(str, error.absolute_path)) or "the top level"
+        choices = error.schema.get("properties", {}) if isinstance(error.schema, dict) else {}
+        hint = f" (keys: {', '.join(choices)})" if error.validator == "additionalProperties" else ""
+        raise WorkflowError(f"configuration, {key}: {error.message}{hint}")
+
+
+def require_defined(key, name, section):
+    """Stop where the configuration refers to an instance that it does not define."""
+    known = config[section]
+    if name not in known:
+        hint = did_you_mean(name, known)
+        raise WorkflowError(
+            f"configuration, {key}: {name!r} is not defined under {section}{hint} "
+            f"({', '.join(known)})"
+        )
+
+
+def instance(kind, name):
+    """Resolve an instance of a plugin to what its jobs need, its code's fingerprint included."""
+    key = f"{kind}s.{name}"
+    parameters = dict(config[f"{kind}s"][name])
+    plugin, target = parameters.pop("plugin"), None
+    for reserved in ("shards", "protocols") if kind == "dataset" else ():
+        parameters.pop(reserved, None)
+    try:
+        if ":" in plugin:
+            plugin, target = name, plugin
+            registry.register_local(kind, name, target)
+        code = registry.fingerprint(kind, plugin)
+        if parameters:
+            registry.create(kind, plugin, parameters)
+    except PluginError as error:
+        raise WorkflowError(f"configuration, {key}: {error}") from error
+    return {"plugin": plugin, "target": target, "parameters": parameters, "code": code}
+
+
+def network(name):
+    """Resolve a network to all of its parameters, defaults included."""
+    parts = {"network": NetworkConfig, "training": TrainingConfig}
+    chosen = config["networks"][name]
+    try:
+        return {
+            part: validated(model, part, chosen.get(part, {})).model_dump(mode="json")
+            for part, model in parts.items()
+        }
+    except PluginError as error:
+        raise WorkflowError(f"configuration, networks.{name}: {error}") from error
+
+
+def slug(column):
+    """Turn the heading of a column into a name for files."""
+    return re.sub("[^a-z0-9]+", "-", column.lower()).strip("-")
+
+
+def chosen_columns():
+    """Return the columns by slug, every reference in them checked."""
+    columns = {}
+    for number, column in enumerate(config["columns"]):
+        key = f"columns.{number}"
+        for field, section in (("baseline", "baselines"), ("parametrizer", "parametrizers")):
+            if field in column:
+                require_defined(f"{key}.{field}", column[field], section)
+        for descriptor in column.get("descriptors", ()):
+            require_defined(f"{key}.descriptors", descriptor, "descriptors")
+        if "network" in column:
+            require_defined(f"{key}.network", column["network"], "networks")
+        name = slug(column["column"])
+        if name in columns:
+            raise WorkflowError(f"configuration, {key}: {name!r} names two columns")
+        columns[name] = column
+    return columns
+
+
+def instances(kind, names):
+    return {name: instance(kind, name) for name in sorted(set(names))}
+
+
+def chosen_databases():
+    """Return the databases asked for; by default the real ones at hand, else the generated."""
+    if config["databases"] != "auto":
+        for name in config["databases"]:
+            require_defined("databases", name, "datasets")
+        return config["databases"]
+    root = Path(config["data_root"])
+    plugins = {name: dataset_plugin(name) for name in config["datasets"]}
+    real = [name for name, plugin in plugins.items() if not plugin.tags.generated]
+    found = [name for name in real if plugins[name].available(root)]
+    return found or [name for name in plugins if name not in real]
+
+
+def dataset_plugin(name):
+    spec = instance("dataset", name)
+    return registry.create("dataset", spec["plugin"], spec["parameters"])
+
+
+def protocols_of(database):
+    """Return how a database is split: protocol -> shapes of each class that train."""
+    own = config["datasets"][database].get("protocols")
+    if own:
+        return own
+    protocols = dataset_plugin(database).protocols
+    return {name: protocol.train_per_class for name, protocol in protocols.items()}
+
+
+def alternatives(names):
+    """Return a regular expression for any of the names, and for nothing where there is none."""
+    return "|".join(map(re.escape, names)) or "(?!)"
+
+
+def shards_of(pattern):
+    """Return an input function: the files of all shards of a database, in order."""
+
+    def shards(wildcards):
+        count = config["datasets"][wildcards.database]["shards"]
+        return expand(pattern, shard=range(count), allow_missing=True)
+
+    return shards
+
+
+def column_shards(wildcards):
+    """Return the last files of a column that are made shape by shape."""
+    column = COLUMNS[wildcards.column]
+    if "baseline" in column:
+        pattern = "results/baselines/{database}/" + column["baseline"] + "/{shard}.npz"
+    else:
+        pattern = f"{images_folder(column)}/{{shard}}.npz"
+    return shards_of(pattern)(wildcards)
+
+
+def images_folder(column):
+    descriptors = "+".join(column["descriptors"])
+    return f"results/images/{{database}}/{column['parametrizer']}/{descriptors}"
+
+
+def predictions(wildcards):
+    """Return the predictions of a column under one protocol, one for each seed."""
+    column = COLUMNS[wildcards.column]
+    if "baseline" in column:
+        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{protocol}}-{{seed}}.npz"
+    else:
+        pattern = "results/learning/{database}/{column}/{protocol}-{seed}.npz"
+    return expand(pattern, seed=config["seeds"], allow_missing=True)
+
+
+require_valid(config)
+
+COLUMNS = chosen_columns()
+DATABASES = chosen_databases()
+PROTOCOLS = {database: protocols_of(database) for database in DATABASES}
+LEARNED = [name for name, column in COLUMNS.items() if "network" in column]
+
+DATASETS = instances("dataset", DATABASES)
+PARAMETRIZERS = instances("parametrizer", (COLUMNS[name]["parametrizer"] for name in LEARNED))
+DESCRIPTORS = instances(
+    "descriptor", (one for name in LEARNED for one in COLUMNS[name]["descriptors"])
+)
+BASELINES = instances(
+    "baseline", (column["baseline"] for column in COLUMNS.values() if "baseline" in column)
+)
+NETWORKS = {name: network(COLUMNS[name]["network"]) for name in LEARNED}
+
+
+wildcard_constraints:
+    database=alternatives(DATABASES),
+    parametrizer=alternatives(PARAMETRIZERS),
+    descriptor=alternatives(DESCRIPTORS),
+    baseline=alternatives(BASELINES),
+    column=alternatives(COLUMNS),
+    protocol="[A-Za-z0-9]+",
+    seed=r"\d+",
+    shard=r"\d+",

@@ -1,0 +1,34 @@
+rule spectra:
+    input:
+        "results/surfaces/{database}/{shard}.npz",
+    output:
+        "results/spectra/{database}/{shard}.npz",
+    params:
+        eigenpairs=config["eigenpairs"],
+        code=fingerprint_module("gipkg.descriptors.operators"),
+    log:
+        "results/logs/spectra/{database}/{shard}.log",
+    benchmark:
+        "results/benchmarks/spectra/{database}/{shard}.tsv"
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/spectra.py"
+
+
+rule describe:
+    input:
+        surfaces="results/surfaces/{database}/{shard}.npz",
+        spectra="results/spectra/{database}/{shard}.npz",
+    output:
+        "results/descriptors/{database}/{descriptor}/{shard}.npz",
+    params:
+        descriptor=lookup("{descriptor}", within=DESCRIPTORS),
+    log:
+        "results/logs/descriptors/{database}/{descriptor}/{shard}.log",
+    benchmark:
+        "results/benchmarks/descriptors/{database}/{descriptor}/{shard}.tsv"
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/describe.py"

@@ -1,0 +1,34 @@
+rule complete:
+    input:
+        column_shards,
+    output:
+        "results/failures/{database}/{column}.json",
+    params:
+        max_failures=config["max_failures"],
+    log:
+        "results/logs/failures/{database}/{column}.log",
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/complete.py"
+
+
+rule evaluate:
+    input:
+        predictions=predictions,
+        splits=expand(
+            "results/datasets/{database}/splits/{protocol}-{seed}.csv",
+            seed=config["seeds"],
+            allow_missing=True,
+        ),
+    output:
+        "results/evaluation/{database}/{column}/{protocol}.json",
+    params:
+        seeds=config["seeds"],
+        code=fingerprint_module("gipkg.evaluation"),
+    log:
+        "results/logs/evaluation/{database}/{column}/{protocol}.log",
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/evaluate.py"

@@ -1,0 +1,18 @@
+rule learn:
+    input:
+        split="results/datasets/{database}/splits/{protocol}-{seed}.csv",
+        images=column_shards,
+        complete=ancient("results/failures/{database}/{column}.json"),
+    output:
+        "results/learning/{database}/{column}/{protocol}-{seed}.npz",
+    params:
+        network=lookup("{column}", within=NETWORKS),
+        code=fingerprint_module("gipkg.learning"),
+    log:
+        "results/logs/learning/{database}/{column}/{protocol}-{seed}.log",
+    benchmark:
+        "results/benchmarks/learning/{database}/{column}/{protocol}-{seed}.tsv"
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/learn.py"

@@ -1,0 +1,29 @@
+rule surfaces:
+    input:
+        "results/datasets/{database}/shapes.csv",
+    output:
+        "results/surfaces/{database}/{shard}.npz",
+    params:
+        dataset=lookup("{database}", within=DATASETS),
+        code=fingerprint_module("gipkg.surfaces"),
+    log:
+        "results/logs/surfaces/{database}/{shard}.log",
+    benchmark:
+        "results/benchmarks/surfaces/{database}/{shard}.tsv"
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/surfaces.py"
+
+
+rule survey:
+    input:
+        shards_of("results/surfaces/{database}/{shard}.npz"),
+    output:
+        "results/surfaces/{database}.json",
+    log:
+        "results/logs/surfaces/{database}.log",
+    conda:
+        "../../environment.yml"
+    script:
+        "../scripts/survey.py"

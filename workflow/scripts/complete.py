@@ -1,0 +1,19 @@
+"""Stop where more shapes failed on the way to a column than the configuration allows."""
+
+from pathlib import Path
+
+from gipkg.errors import TooManyFailures
+from gipkg.files import write_json
+from gipkg.shards import Shard
+
+import job
+
+job.start(snakemake)
+failures: dict[str, str] = {}
+for path in snakemake.input:
+    failures |= Shard.open(Path(path)).failures
+if len(failures) > snakemake.params.max_failures:
+    listing = "".join(f"\n  {shape_id}: {reason}" for shape_id, reason in sorted(failures.items()))
+    allowed = snakemake.params.max_failures
+    raise TooManyFailures(f"{len(failures)} shapes failed and max_failures is {allowed}:{listing}")
+write_json(Path(snakemake.output[0]), failures)

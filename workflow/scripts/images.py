@@ -1,0 +1,29 @@
+"""Render the geometry images of one shard, one for each of the standard cuts."""
+
+from pathlib import Path
+
+import numpy as np
+from gipkg.api import SphericalMap
+from gipkg.images import lookup, standard_cuts
+from gipkg.shards import Arrays, Shard, join
+
+import job
+from meshes import mesh_of
+
+job.start(snakemake)
+surfaces = Shard.open(Path(snakemake.input.surfaces))
+maps = Shard.open(Path(snakemake.input.maps))
+descriptors = [Shard.open(Path(path)) for path in snakemake.input.descriptors]
+size, sampling = snakemake.params.images["size"], snakemake.params.images["sampling"]
+cuts = standard_cuts()
+
+
+def images(shape_id: str) -> Arrays:
+    """Render all channels of one surface, (36, C, size, size) float32."""
+    spherical_map = SphericalMap(mesh_of(surfaces[shape_id]), maps[shape_id]["sphere"])
+    channels = np.hstack([shard[shape_id]["channels"] for shard in descriptors])
+    return {"images": lookup(spherical_map, size, cuts, sampling).render(channels)}
+
+
+ids, failures = join(surfaces, maps, *descriptors)
+job.map_shapes(snakemake, ids, images, failures)

@@ -1,0 +1,19 @@
+"""List the shapes of a database, their classes and the shards they are in."""
+
+from pathlib import Path
+
+from gipkg.files import write_csv
+from gipkg.shards import shard_of
+
+import job
+
+job.start(snakemake)
+dataset = job.plugin("dataset", snakemake.params.dataset)
+root = Path(snakemake.config["data_root"])
+if not dataset.available(root):
+    dataset.fetch(root)
+rows = [
+    (shape.id, shape.label, shard_of(shape.id, snakemake.params.shards))
+    for shape in dataset.shapes(root)
+]
+write_csv(Path(snakemake.output[0]), ("id", "label", "shard"), rows)

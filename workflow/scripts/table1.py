@@ -1,0 +1,76 @@
+"""Set Table 1 from the scores: for programs, for readers, and where it comes from."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from gipkg.files import write_csv, write_json, write_text
+from gipkg.reporting import notes, table1
+from gipkg.reporting.provenance import environment
+from gipkg.reporting.survey import Survey
+
+import job
+
+job.start(snakemake)
+config, rows = snakemake.params.config, snakemake.params.rows
+headings = [column["column"] for column in config["columns"]]
+databases = list(dict.fromkeys(database for database, _ in rows))
+plugins = {
+    (kind, name): job.plugin(kind, spec)
+    for kind, instances in snakemake.params.plugins.items()
+    for name, spec in instances.items()
+}
+
+
+def read(path: str) -> Any:
+    """Read what an earlier stage found out."""
+    return json.loads(Path(path).read_text(encoding="utf-8"))
+
+
+evaluations = map(read, snakemake.input.evaluations)
+table = [
+    table1.Row(*row, {heading: table1.Cell.of(next(evaluations)) for heading in headings})
+    for row in rows
+]
+surveys = dict(zip(databases, map(read, snakemake.input.surveys), strict=True))
+lost = map(read, snakemake.input.failures)
+failures = {database: {heading: next(lost) for heading in headings} for database in databases}
+
+text = [
+    notes.database_note(
+        database,
+        [split for name, split in rows if name == database],
+        plugins["dataset", database],
+        Survey(**surveys[database]),
+    )
+    for database in databases
+]
+text += [notes.column_note(column, plugins) for column in config["columns"]]
+text += [
+    notes.failure_note(heading, database, failures[database][heading])
+    for database in databases
+    for heading in headings
+    if failures[database][heading]
+]
+text.append(notes.seeds_note(config["seeds"]))
+
+header, lines = table1.as_csv(table, headings)
+write_csv(Path(snakemake.output.csv), header, lines)
+in_paper = {column["column"]: column.get("paper") for column in config["columns"]}
+reference = table1.read_reference(Path(snakemake.input.reference))
+write_text(Path(snakemake.output.markdown), table1.as_markdown(table, in_paper, reference, text))
+provenance = {
+    **environment(),
+    "config": config,
+    "networks": snakemake.params.networks,
+    "plugins": snakemake.params.plugins,
+    "databases": {
+        database: {
+            "survey": surveys[database],
+            "sha256": dict(plugins["dataset", database].tags.files),
+            "failures": failures[database],
+        }
+        for database in databases
+    },
+}
+write_json(Path(snakemake.output.provenance), provenance)
