@@ -63,9 +63,10 @@ class Checkpoint:
             return 0
         try:
             state = torch.load(self.path, map_location=device, weights_only=True)
-        except (RuntimeError, UnpicklingError, EOFError) as error:
+        except (RuntimeError, UnpicklingError, EOFError, OSError) as error:
+            # The error's own text would advise to load the file unsafely.
             raise DamagedFileError(
-                f"{self.path}: not a whole checkpoint ({error}); delete it to train afresh"
+                f"{self.path}: cannot be read as a checkpoint; delete it to train afresh"
             ) from error
         if state["fingerprint"] != self.fingerprint:
             return 0

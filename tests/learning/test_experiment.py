@@ -1,0 +1,201 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from gipkg.errors import DamagedFileError, LearningError
+from gipkg.learning import checkpoint as checkpoints
+from gipkg.learning import training as loop
+from gipkg.learning.config import AS_IN_THE_PAPER, NetworkConfig, TrainingConfig
+from gipkg.learning.experiment import train_and_predict
+from gipkg.learning.prediction import Prediction
+from tests.learning.synthetic import synthetic_images
+
+IMAGES, LABELS = synthetic_images(18)
+IDS = tuple(IMAGES)
+TRAIN, TEST = IDS[:9], IDS[9:]
+SMALL = NetworkConfig(widths=(6, 8, 10), dropout=0.2)
+SHORT = TrainingConfig(epochs=8, batch_size=12)
+LONGER = TrainingConfig(epochs=30, batch_size=12)
+
+
+def run(images: Any = IMAGES, **changes: Any) -> Prediction:
+    arguments: dict[str, Any] = {"network": SMALL, "training": SHORT, "device": "cpu", **changes}
+    known = {i: LABELS[i] for i in TRAIN}  # the labels of the test part are not even there
+    return train_and_predict(images, known, TRAIN, TEST, **arguments)
+
+
+@pytest.fixture(scope="module")
+def undisturbed() -> Prediction:
+    return run()
+
+
+def accuracy(found: Prediction) -> float:
+    predicted = [found.classes[i] for i in found.scores.argmax(axis=1)]
+    return float(np.mean([LABELS[i] == label for i, label in zip(TEST, predicted, strict=True)]))
+
+
+def assert_equal(first: Prediction, second: Prediction) -> None:
+    assert (first.ids, first.classes) == (second.ids, second.classes)
+    np.testing.assert_array_equal(first.scores, second.scores)
+    np.testing.assert_array_equal(first.embeddings, second.embeddings)
+
+
+def test_it_learns_channels_of_any_scale(undisturbed: Prediction) -> None:
+    assert accuracy(undisturbed) == 1.0
+    assert undisturbed.ids == TEST
+    assert undisturbed.classes == tuple(sorted(set(LABELS.values())))
+    assert undisturbed.embeddings.shape == (len(TEST), 48)
+    np.testing.assert_allclose(undisturbed.scores.sum(axis=1), np.ones(len(TEST)), rtol=1e-5)
+
+
+def test_the_variant_of_the_paper_learns() -> None:
+    network, training = AS_IN_THE_PAPER
+    images = {i: views / np.array([[[1e-3]], [[1e4]]], np.float32) for i, views in IMAGES.items()}
+    found = run(
+        images, network=network, training=training.model_copy(update={"minimum_steps": 150})
+    )
+    assert accuracy(found) == 1.0
+
+
+def test_the_seed_fixes_every_bit(undisturbed: Prediction) -> None:
+    assert_equal(run(), undisturbed)
+    assert (run(seed=1).scores != undisturbed.scores).all()
+
+
+def test_the_test_part_changes_nothing_but_its_own_predictions(undisturbed: Prediction) -> None:
+    changed = run({**IMAGES, TEST[0]: 100 * IMAGES[TEST[0]] + 7})
+    np.testing.assert_array_equal(changed.scores[1:], undisturbed.scores[1:])
+    np.testing.assert_array_equal(changed.embeddings[1:], undisturbed.embeddings[1:])
+    assert (changed.embeddings[0] != undisturbed.embeddings[0]).any()
+
+
+def test_views_are_pooled_by_their_mean(undisturbed: Prediction) -> None:
+    # Each view predicted alone, as if it were a shape of its own.
+    views = range(len(IMAGES[TEST[0]]))
+    single = {f"view {v}": IMAGES[TEST[0]][v : v + 1] for v in views}
+    known = {i: LABELS[i] for i in TRAIN}
+    found = train_and_predict(
+        {**IMAGES, **single}, known, TRAIN, tuple(single), network=SMALL, training=SHORT
+    )
+    np.testing.assert_allclose(found.scores.mean(axis=0), undisturbed.scores[0], rtol=1e-4)
+    np.testing.assert_allclose(
+        found.embeddings.mean(axis=0), undisturbed.embeddings[0], rtol=1e-4, atol=1e-5
+    )
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"shuffle_pixels": True},
+        {"mirror": True},
+        {"label_smoothing": 0.2},
+        {"scaling": "none"},
+        {"optimiser": "sgd"},
+        {"precision": "bfloat16" if not torch.cuda.is_available() else "float32"},
+    ],
+    ids=lambda change: next(iter(change)),
+)
+def test_every_choice_makes_a_difference(undisturbed: Prediction, change: dict[str, Any]) -> None:
+    baseline = run(training=SHORT.model_copy(update={"precision": "float32"}))
+    changed = run(training=SHORT.model_copy(update={"precision": "float32", **change}))
+    assert (changed.embeddings != baseline.embeddings).any()
+
+
+class Killed(Exception):
+    pass
+
+
+@pytest.mark.parametrize("at", [1, 7, 23])
+def test_a_killed_training_ends_as_an_undisturbed_one(
+    at: int, undisturbed: Prediction, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(loop, "SECONDS_BETWEEN_CHECKPOINTS", 0.0)
+    path = tmp_path / "work" / "state.pt"
+    save = checkpoints.Checkpoint.save
+
+    def killed(self: Any, step: int, *state: Any) -> None:
+        save(self, step, *state)
+        if step == at:
+            raise Killed
+
+    with monkeypatch.context() as patch:
+        patch.setattr(checkpoints.Checkpoint, "save", killed)
+        with pytest.raises(Killed):
+            run(checkpoint=path)
+    steps: list[int] = []
+    monkeypatch.setattr(
+        checkpoints.Checkpoint,
+        "save",
+        lambda self, step, *state: (steps.append(step), save(self, step, *state)),
+    )
+    assert_equal(run(checkpoint=path), undisturbed)
+    assert steps[0] == at + 1
+    assert [file.name for file in path.parent.iterdir()] == ["state.pt"]
+
+
+def test_a_process_killed_by_the_system_is_resumed(tmp_path: Path) -> None:
+    path, out = tmp_path / "state.pt", tmp_path / "embeddings.npy"
+    program = f"""
+import numpy as np
+from pathlib import Path
+from gipkg.learning import training as loop
+from tests.learning.test_experiment import LONGER, run
+loop.SECONDS_BETWEEN_CHECKPOINTS = 0.0
+np.save({str(out)!r}, run(training=LONGER, checkpoint=Path({str(path)!r})).embeddings)
+"""
+    repository = Path(__file__).parents[2]
+    command = [sys.executable, "-c", program]
+    process = subprocess.Popen(command, cwd=repository, stderr=subprocess.DEVNULL)
+    while not path.exists():
+        assert process.poll() is None, "ended before its first checkpoint"
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    assert not out.exists()
+    subprocess.run(command, cwd=repository, stderr=subprocess.DEVNULL, check=True)
+    np.testing.assert_array_equal(np.load(out), run(training=LONGER).embeddings)
+
+
+def test_a_finished_training_is_not_repeated(
+    undisturbed: Prediction, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "state.pt"
+    run(checkpoint=path)
+    monkeypatch.setattr(loop, "cross_entropy", None)
+    assert_equal(run(checkpoint=path), undisturbed)
+
+
+def test_the_checkpoint_of_another_training_is_not_used(
+    undisturbed: Prediction, tmp_path: Path
+) -> None:
+    path = tmp_path / "state.pt"
+    run(checkpoint=path, training=SHORT.model_copy(update={"epochs": 2}))
+    assert_equal(run(checkpoint=path), undisturbed)
+    run({**IMAGES, TRAIN[0]: IMAGES[TRAIN[0]] + 1e-3}, checkpoint=path)
+    assert_equal(run(checkpoint=path), undisturbed)
+
+
+@pytest.mark.parametrize("content", [b"", b"not a checkpoint", None], ids=["empty", "other", "cut"])
+def test_a_damaged_checkpoint_is_named(content: bytes | None, tmp_path: Path) -> None:
+    path = tmp_path / "state.pt"
+    quick = SHORT.model_copy(update={"epochs": 1})
+    if content is None:
+        run(checkpoint=path, training=quick)
+        content = path.read_bytes()[:-1000]
+    path.write_bytes(content)
+    with pytest.raises(DamagedFileError, match=r"state\.pt.*delete it"):
+        run(checkpoint=path, training=quick)
+
+
+def test_a_training_that_diverges_is_named() -> None:
+    config = TrainingConfig(scaling="none", optimiser="sgd", learning_rate=1.0, precision="float32")
+    with pytest.raises(LearningError, match="diverged at step"):
+        run(network=NetworkConfig(batch_normalisation=False), training=config)

@@ -1,0 +1,51 @@
+from __future__ import annotations
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from gipkg.learning.config import AS_IN_THE_PAPER, TrainingConfig
+from gipkg.learning.training import batches, learning_rate, number_of_steps
+
+
+def test_every_epoch_shows_every_view_once_in_another_order() -> None:
+    views, size = 30, 8
+    shown = np.concatenate(list(islice(batches(views, size, seed=1, start=0), 15)))
+    epochs = shown.reshape(4, views)
+    np.testing.assert_array_equal(np.sort(epochs, axis=1), np.tile(np.arange(views), (4, 1)))
+    assert len({tuple(epoch) for epoch in epochs}) == 4
+
+
+@pytest.mark.parametrize(("views", "start"), [(30, 7), (5, 3), (1, 2)])
+def test_a_later_start_continues_the_same_order(views: int, start: int) -> None:
+    whole = list(islice(batches(views, 8, seed=1, start=0), start + 5))
+    later = list(islice(batches(views, 8, seed=1, start=start), 5))
+    np.testing.assert_array_equal(later, whole[start:])
+
+
+def test_the_order_depends_on_the_seed() -> None:
+    first, second = (next(batches(100, 64, seed, start=0)) for seed in (0, 1))
+    assert (first != second).any()
+
+
+def test_training_lasts_whole_epochs_but_not_too_few_steps() -> None:
+    config = TrainingConfig(epochs=3, batch_size=10, minimum_steps=20)
+    assert number_of_steps(config, views=101) == 31
+    assert number_of_steps(config, views=10) == 20
+
+
+def test_the_one_cycle_rises_and_falls_to_zero() -> None:
+    config = TrainingConfig(learning_rate=0.5)
+    rates = [learning_rate(config, done) for done in np.linspace(0, 1, 1001)]
+    top = int(np.argmax(rates))
+    assert rates[0] == 0
+    assert max(rates) == pytest.approx(0.5)
+    assert (np.diff(rates[: top + 1]) > 0).all()
+    assert (np.diff(rates[top:]) < 0).all()
+    assert rates[-1] == pytest.approx(0, abs=1e-9)
+
+
+def test_the_papers_rate_falls_three_times_tenfold() -> None:
+    rates = [learning_rate(AS_IN_THE_PAPER[1], done) for done in (0, 0.24, 0.26, 0.51, 0.76, 0.99)]
+    np.testing.assert_allclose(rates, [1e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-5])
