@@ -152,9 +152,14 @@ def normalise(name: str) -> str:
     return name.replace("_", "-")
 
 
+def is_valid_name(name: str) -> bool:
+    """Tell whether a name in its normal spelling can stand in a path and a config."""
+    return _NAME.fullmatch(name) is not None
+
+
 def require_valid_name(ref: PluginRef) -> None:
-    """Raise BrokenPluginError for a name that could not stand in a path or a config."""
-    if not _NAME.fullmatch(ref.name):
+    """Raise BrokenPluginError for a name that is not valid."""
+    if not is_valid_name(ref.name):
         raise BrokenPluginError(f"{ref}: a name is lower case letters, digits and '-'")
 
 

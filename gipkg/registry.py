@@ -25,6 +25,7 @@ from gipkg.plugin_refs import (
     PluginRef,
     builtin,
     installed,
+    is_valid_name,
     load,
     normalise,
     require_valid_name,
@@ -42,8 +43,10 @@ __all__ = [
     "find",
     "fingerprint",
     "get",
+    "is_valid_name",
     "list_plugins",
     "load",
+    "normalise",
     "register_local",
 ]
 

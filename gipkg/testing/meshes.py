@@ -53,8 +53,8 @@ def isometric_pair() -> tuple[trimesh.Trimesh, trimesh.Trimesh]:
     """
     mesh = trimesh.creation.uv_sphere(count=[20, 20])
     vertices = np.array(mesh.vertices)
-    levels = np.unique(vertices[:, 2].round(12))
-    ring = levels[-6]
+    vertices[:, 2] = vertices[:, 2].round(12)
+    ring = np.unique(vertices[:, 2])[-6]
     below = np.minimum(vertices[:, 2] - ring, 0.0)
     bumps = np.sin(vertices @ np.array([2.1, 1.3, 0.7]) + 0.4)
     vertices[:, :2] *= (1 - 0.3 * below * bumps)[:, None]

@@ -1,0 +1,13 @@
+"""The conformance checks of gipkg, one test each; tests of the method itself go below."""
+
+from __future__ import annotations
+
+from gipkg_my_method import MyMethod
+
+from gipkg.testing import parametrize_with_checks
+
+
+@parametrize_with_checks([MyMethod()])
+def test_conformance(check):
+    """The plugin keeps the contract of its kind and every promise of its tags."""
+    check()
