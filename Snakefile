@@ -1,5 +1,6 @@
 from pathlib import Path
 
+
 configfile: Path(workflow.basedir) / "config" / "config.yaml"
 
 

@@ -4,14 +4,14 @@ rule represent:
         spectra="results/spectra/{database}/{shard}.npz",
     output:
         "results/baselines/{database}/{baseline}/{shard}.npz",
-    params:
-        baseline=lookup("{baseline}", within=BASELINES),
     log:
         "results/logs/baselines/{database}/{baseline}/{shard}.log",
     benchmark:
         "results/benchmarks/baselines/{database}/{baseline}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    params:
+        baseline=lookup("{baseline}", within=BASELINES),
     script:
         "../scripts/represent.py"
 
@@ -22,13 +22,13 @@ rule classify:
         representations=shards_of("results/baselines/{database}/{baseline}/{shard}.npz"),
     output:
         "results/baselines/{database}/{baseline}/{protocol}-{seed}.npz",
-    params:
-        code=fingerprint_module("gipkg.baselines.svm"),
     log:
         "results/logs/baselines/{database}/{baseline}/{protocol}-{seed}.log",
     benchmark:
         "results/benchmarks/baselines/{database}/{baseline}/{protocol}-{seed}.tsv"
     conda:
         "../../environment.yml"
+    params:
+        code=fingerprint_module("gipkg.baselines.svm"),
     script:
         "../scripts/classify.py"

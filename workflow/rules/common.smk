@@ -1,4 +1,3 @@
-import os
 import re
 from pathlib import Path
 
@@ -15,9 +14,6 @@ from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.parameters import validated
 
 min_version("9.9")
-
-# One thread a job: several jobs use the cores better than several threads do.
-os.environ["NUMBA_NUM_THREADS"] = "1"
 
 
 def require_valid(config):
@@ -149,15 +145,20 @@ def column_shards(wildcards):
     """Return the last files of a column that are made shape by shape."""
     column = COLUMNS[wildcards.column]
     if "baseline" in column:
-        pattern = "results/baselines/{database}/" + column["baseline"] + "/{shard}.npz"
+        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{shard}}.npz"
     else:
-        pattern = f"{images_folder(column)}/{{shard}}.npz"
+        images = f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
+        pattern = f"results/images/{{database}}/{images}/{{shard}}.npz"
     return shards_of(pattern)(wildcards)
 
 
-def images_folder(column):
-    descriptors = "+".join(column["descriptors"])
-    return f"results/images/{{database}}/{column['parametrizer']}/{descriptors}"
+def channels(wildcards):
+    """Return the shards of the descriptors that an image shows, in the order of its name."""
+    return expand(
+        "results/descriptors/{database}/{descriptor}/{shard}.npz",
+        descriptor=wildcards.descriptors.split("+"),
+        allow_missing=True,
+    )
 
 
 def predictions(wildcards):

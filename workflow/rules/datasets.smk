@@ -1,13 +1,13 @@
 rule shapes:
     output:
         "results/datasets/{database}/shapes.csv",
-    params:
-        dataset=lookup("{database}", within=DATASETS),
-        shards=lookup("{database}/shards", within=config["datasets"]),
     log:
         "results/logs/datasets/{database}.log",
     conda:
         "../../environment.yml"
+    params:
+        dataset=lookup("{database}", within=DATASETS),
+        shards=lookup("{database}/shards", within=config["datasets"]),
     script:
         "../scripts/shapes.py"
 
@@ -17,12 +17,12 @@ rule split:
         "results/datasets/{database}/shapes.csv",
     output:
         "results/datasets/{database}/splits/{protocol}-{seed}.csv",
-    params:
-        train_per_class=lookup("{database}/{protocol}", within=PROTOCOLS),
-        code=fingerprint_module("gipkg.datasets.splits"),
     log:
         "results/logs/splits/{database}/{protocol}-{seed}.log",
     conda:
         "../../environment.yml"
+    params:
+        train_per_class=lookup("{database}/{protocol}", within=PROTOCOLS),
+        code=fingerprint_module("gipkg.datasets.splits"),
     script:
         "../scripts/split.py"

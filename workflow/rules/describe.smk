@@ -3,15 +3,15 @@ rule spectra:
         "results/surfaces/{database}/{shard}.npz",
     output:
         "results/spectra/{database}/{shard}.npz",
-    params:
-        eigenpairs=config["eigenpairs"],
-        code=fingerprint_module("gipkg.descriptors.operators"),
     log:
         "results/logs/spectra/{database}/{shard}.log",
     benchmark:
         "results/benchmarks/spectra/{database}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    params:
+        eigenpairs=config["eigenpairs"],
+        code=fingerprint_module("gipkg.descriptors.operators"),
     script:
         "../scripts/spectra.py"
 
@@ -22,13 +22,13 @@ rule describe:
         spectra="results/spectra/{database}/{shard}.npz",
     output:
         "results/descriptors/{database}/{descriptor}/{shard}.npz",
-    params:
-        descriptor=lookup("{descriptor}", within=DESCRIPTORS),
     log:
         "results/logs/descriptors/{database}/{descriptor}/{shard}.log",
     benchmark:
         "results/benchmarks/descriptors/{database}/{descriptor}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    params:
+        descriptor=lookup("{descriptor}", within=DESCRIPTORS),
     script:
         "../scripts/describe.py"

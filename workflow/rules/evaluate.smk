@@ -3,12 +3,12 @@ rule complete:
         column_shards,
     output:
         "results/failures/{database}/{column}.json",
-    params:
-        max_failures=config["max_failures"],
     log:
         "results/logs/failures/{database}/{column}.log",
     conda:
         "../../environment.yml"
+    params:
+        max_failures=config["max_failures"],
     script:
         "../scripts/complete.py"
 
@@ -23,12 +23,12 @@ rule evaluate:
         ),
     output:
         "results/evaluation/{database}/{column}/{protocol}.json",
-    params:
-        seeds=config["seeds"],
-        code=fingerprint_module("gipkg.evaluation"),
     log:
         "results/logs/evaluation/{database}/{column}/{protocol}.log",
     conda:
         "../../environment.yml"
+    params:
+        seeds=config["seeds"],
+        code=fingerprint_module("gipkg.evaluation"),
     script:
         "../scripts/evaluate.py"

@@ -1,11 +1,3 @@
-def channels(wildcards):
-    return expand(
-        "results/descriptors/{database}/{descriptor}/{shard}.npz",
-        descriptor=wildcards.descriptors.split("+"),
-        allow_missing=True,
-    )
-
-
 rule images:
     input:
         surfaces="results/surfaces/{database}/{shard}.npz",
@@ -13,9 +5,6 @@ rule images:
         descriptors=channels,
     output:
         "results/images/{database}/{parametrizer}/{descriptors}/{shard}.npz",
-    params:
-        images=config["images"],
-        code=fingerprint_module("gipkg.images"),
     log:
         "results/logs/images/{database}/{parametrizer}/{descriptors}/{shard}.log",
     benchmark:
@@ -24,5 +13,8 @@ rule images:
         descriptors="[a-z0-9+-]+",
     conda:
         "../../environment.yml"
+    params:
+        images=config["images"],
+        code=fingerprint_module("gipkg.images"),
     script:
         "../scripts/images.py"

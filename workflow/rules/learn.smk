@@ -5,14 +5,14 @@ rule learn:
         complete=ancient("results/failures/{database}/{column}.json"),
     output:
         "results/learning/{database}/{column}/{protocol}-{seed}.npz",
-    params:
-        network=lookup("{column}", within=NETWORKS),
-        code=fingerprint_module("gipkg.learning"),
     log:
         "results/logs/learning/{database}/{column}/{protocol}-{seed}.log",
     benchmark:
         "results/benchmarks/learning/{database}/{column}/{protocol}-{seed}.tsv"
     conda:
         "../../environment.yml"
+    params:
+        network=lookup("{column}", within=NETWORKS),
+        code=fingerprint_module("gipkg.learning"),
     script:
         "../scripts/learn.py"

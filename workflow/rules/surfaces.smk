@@ -3,15 +3,15 @@ rule surfaces:
         "results/datasets/{database}/shapes.csv",
     output:
         "results/surfaces/{database}/{shard}.npz",
-    params:
-        dataset=lookup("{database}", within=DATASETS),
-        code=fingerprint_module("gipkg.surfaces"),
     log:
         "results/logs/surfaces/{database}/{shard}.log",
     benchmark:
         "results/benchmarks/surfaces/{database}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    params:
+        dataset=lookup("{database}", within=DATASETS),
+        code=fingerprint_module("gipkg.surfaces"),
     script:
         "../scripts/surfaces.py"
 

@@ -15,6 +15,10 @@ rule table1:
         csv="results/table1.csv",
         markdown="results/table1.md",
         provenance="results/table1.json",
+    log:
+        "results/logs/table1.log",
+    conda:
+        "../../environment.yml"
     params:
         config=config,
         rows=[(database, protocol) for database in DATABASES for protocol in PROTOCOLS[database]],
@@ -26,9 +30,5 @@ rule table1:
         },
         networks=NETWORKS,
         code=fingerprint_module("gipkg.reporting"),
-    log:
-        "results/logs/table1.log",
-    conda:
-        "../../environment.yml"
     script:
         "../scripts/table1.py"
