@@ -196,15 +196,16 @@ def _is_text(node: ast.stmt) -> bool:
     )
 
 
-def _walk_runtime(node: ast.AST) -> Iterator[ast.AST]:
+def _walk_runtime(tree: ast.Module) -> Iterator[ast.AST]:
     """Walk a syntax tree, leaving out the blocks under ``if TYPE_CHECKING``."""
-    yield node
-    if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
-        children: list[ast.AST] = list(node.orelse)
-    else:
-        children = list(ast.iter_child_nodes(node))
-    for child in children:
-        yield from _walk_runtime(child)
+    pending: list[ast.AST] = [tree]
+    while pending:
+        node = pending.pop()
+        yield node
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+            pending += node.orelse
+        else:
+            pending += ast.iter_child_nodes(node)
 
 
 def _package_of(path: Path) -> str:
@@ -219,7 +220,8 @@ def _imported(node: ast.AST, package: str) -> Iterator[str]:
         case ast.ImportFrom(module=module, names=names, level=level):
             base = ".".join(package.split(".")[: 1 - level or None]) if level else ""
             origin = ".".join(filter(None, (base, module)))
-            yield origin
-            yield from (f"{origin}.{alias.name}" for alias in names)
+            members = [f"{origin}.{alias.name}" for alias in names]
+            # The code of a package itself counts where something else than a module is taken.
+            yield from members if all(map(_path_of, members)) else (origin, *members)
         case ast.Constant(value=str(text)) if _MODULE_NAME.fullmatch(text):
             yield text

@@ -9,7 +9,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from gipkg import fingerprints
 from gipkg.errors import (
@@ -32,7 +32,7 @@ from gipkg.plugin_refs import (
 )
 
 if TYPE_CHECKING:
-    from gipkg.api import Plugin
+    from gipkg.api import Baseline, Dataset, Descriptor, Parametrizer, Plugin
 
 __all__ = [
     "KINDS",
@@ -113,6 +113,22 @@ def get(kind: Kind, name: str) -> type[Plugin]:
     return load(find(kind, name))
 
 
+@overload
+def create(
+    kind: Literal["parametrizer"], name: str, parameters: Mapping[str, Any] = ...
+) -> Parametrizer: ...
+@overload
+def create(
+    kind: Literal["descriptor"], name: str, parameters: Mapping[str, Any] = ...
+) -> Descriptor: ...
+@overload
+def create(
+    kind: Literal["baseline"], name: str, parameters: Mapping[str, Any] = ...
+) -> Baseline: ...
+@overload
+def create(kind: Literal["dataset"], name: str, parameters: Mapping[str, Any] = ...) -> Dataset: ...
+@overload
+def create(kind: Kind, name: str, parameters: Mapping[str, Any] = ...) -> Plugin: ...
 def create(kind: Kind, name: str, parameters: Mapping[str, Any] = _NO_PARAMETERS) -> Plugin:
     """Build a plugin by name.
 

@@ -25,6 +25,7 @@ LIBRARY = {
     ),
     "plugins/lazy.py": "import gipkg\ndef run(): return gipkg.draw()\n",
     "plugins/other.py": "def run(): return 2\n",
+    "plugins/narrow.py": "from gipkg.surfaces import unused\ndef run(): return unused.x\n",
 }
 
 
@@ -54,6 +55,14 @@ def test_editing_a_function_two_imports_away_changes_it(library: Path, name: str
     after = fingerprints.of_plugin(plugin(name)), fingerprints.of_plugin(plugin("other"))
     assert before[0] != after[0]
     assert before[1] == after[1]
+
+
+def test_taking_a_module_from_a_package_does_not_take_the_whole_package(library: Path) -> None:
+    before = fingerprints.of_plugin(plugin("narrow"))
+    edited(library / "surfaces/area.py", "y = 2\n")
+    assert fingerprints.of_plugin(plugin("narrow")) == before
+    edited(library / "surfaces/unused.py", "y = 2\n")
+    assert fingerprints.of_plugin(plugin("narrow")) != before
 
 
 @pytest.mark.parametrize(

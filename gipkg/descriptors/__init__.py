@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
     import trimesh
     from numpy.typing import NDArray
 
-    from gipkg.api import Descriptor
     from gipkg.descriptors.operators import Operators
 
 
@@ -43,7 +42,7 @@ def describe(
     from gipkg import registry
     from gipkg.descriptors.operators import Operators
 
-    descriptor = cast("Descriptor", registry.create("descriptor", name, parameters))
+    descriptor = registry.create("descriptor", name, parameters)
     return descriptor.describe(mesh, operators or Operators(mesh))
 
 

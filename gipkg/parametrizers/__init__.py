@@ -7,12 +7,12 @@ distortion :mod:`.energy` from there, and :mod:`.spherical_areas` proves the res
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 import trimesh
 
 from gipkg import registry
-from gipkg.api import Parametrizer, SphericalMap
+from gipkg.api import SphericalMap
 
 
 def parametrize(mesh: trimesh.Trimesh, method: str = "authalic", **parameters: Any) -> SphericalMap:
@@ -41,5 +41,5 @@ def parametrize(mesh: trimesh.Trimesh, method: str = "authalic", **parameters: A
     ParametrizationError
         The method could not keep what it guarantees.
     """
-    plugin = cast(Parametrizer, registry.create("parametrizer", method, parameters))
+    plugin = registry.create("parametrizer", method, parameters)
     return SphericalMap(mesh, plugin.parametrize(mesh))
