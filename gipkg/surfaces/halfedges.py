@@ -53,6 +53,12 @@ class Edges:
         first = self.start[self.count == 2]
         return np.column_stack((self.order[first], self.order[first + 1]))
 
+    def crowded(self) -> list[Ints]:
+        """List the half-edges of every edge of more than two faces."""
+        many = self.count > 2
+        spans = zip(self.start[many], self.count[many], strict=True)
+        return [self.order[begin : begin + count] for begin, count in spans]
+
     def halfedges(self, chosen: NDArray[np.bool_]) -> Ints:
         """Return all half-edges of the edges that `chosen` (E,) marks."""
         return self.order[np.repeat(chosen, self.count)]

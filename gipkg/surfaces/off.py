@@ -48,7 +48,7 @@ def read_off(path: Path) -> Arrays:
         if outside:
             raise ValueError(f"{len(outside)} faces name a vertex that does not exist")
         return vertices, triangulate_polygons(vertices, polygons)
-    except ValueError as error:
+    except (ValueError, OverflowError) as error:
         raise MeshFormatError(path, f"not a well-formed OFF file: {error}") from error
 
 

@@ -61,13 +61,7 @@ def split_fans(mesh: Triangles, pairs: Ints) -> tuple[Triangles, Ints]:
 
 def _pair_crowded(mesh: Triangles, edges: halfedges.Edges) -> Ints:
     """Choose (P, 2) half-edges that stay joined at the edges of more than two faces."""
-    pairs = [
-        pair
-        for begin, count in zip(
-            edges.start[edges.count > 2], edges.count[edges.count > 2], strict=True
-        )
-        for pair in _smoothest_pairs(mesh, edges.order[begin : begin + count])
-    ]
+    pairs = [pair for around in edges.crowded() for pair in _smoothest_pairs(mesh, around)]
     return np.array(pairs, np.int64).reshape(-1, 2)
 
 
@@ -108,13 +102,9 @@ def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 def _doubled_edges(faces: Ints, chosen: Ints) -> list[tuple[int, ...]]:
     """List the edges, as tuples of half-edges, that still share both ends with another one."""
     partner = dict(map(tuple, chosen.tolist())) | dict(map(tuple, chosen[:, ::-1].tolist()))
-    edges = halfedges.group_edges(faces)
     doubled, used_faces = [], set[int]()
-    for begin, count in zip(edges.start, edges.count, strict=True):
-        if count <= 2:
-            continue
-        around = edges.order[begin : begin + count].tolist()
-        instances = {tuple(sorted({h, partner.get(h, h)})) for h in around}
+    for around in halfedges.group_edges(faces).crowded():
+        instances = {tuple(sorted({h, partner.get(h, h)})) for h in around.tolist()}
         for instance in sorted(instances)[1:]:
             touched = {h // 3 for h in instance}
             if not touched & used_faces:

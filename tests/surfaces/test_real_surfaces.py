@@ -1,0 +1,151 @@
+"""Real files: scans and models, open and broken ones, SHREC'11 and TOSCA."""
+
+from __future__ import annotations
+
+import io
+import tarfile
+
+import numpy as np
+import pytest
+import trimesh
+from scipy.io import loadmat
+
+from gipkg.errors import UnsupportedMesh
+from gipkg.surfaces import load_mesh, prepare
+from tests.surfaces.solids import assert_genus_zero, bare
+from tests.surfaces.test_preparation import assert_untouched
+
+CLOSED = ["armadillo", "brain", "bull", "bunny00", "camel", "david1"]
+CLOSED += ["dino", "hand", "homer", "lion", "maxplanck", "twistedball"]
+GENUS = {"anchor": 4, "eight": 2, "elephant": 3, "fertility": 4, "turbine": 11}
+REPAIRED = ["P", "cow", "cube_quad", "elephant-with-holes", "open_cube"]
+REPAIRED += ["tetra_intersected_by_triangle"]
+REFUSED = {
+    "blobby_3cc.off": "the largest of its 3 parts has only 45%",
+    "degtri_sliding.off": "open sheet",
+    "holes.off": "open sheet",
+    "mesh_with_border.off": "open sheet",
+    "pig.stl": "parts has only 23%",
+    "polygon_mesh.off": "open sheet",
+    "triangle.off": "open sheet",
+}
+
+TOSCA_LOW = "cat0 centaur0 david10 dog1 gorilla6 horse15 lioness0 lioness13 michael1 seahorse4"
+TOSCA_HIGH = "centaur3 wolf0 horse5 cat0 gorilla1"
+
+
+def assert_closed(mesh: trimesh.Trimesh) -> None:
+    """Check as the other tests do, without walking through every vertex of a large scan."""
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert mesh.body_count == 1
+    assert mesh.euler_number == 2
+    assert mesh.volume > 0
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_accurate_scans_stay_as_they_are(data_root, name):
+    mesh = load_mesh(data_root / "surfaces" / "closed" / f"{name}.off")
+    assert_closed(mesh)
+    assert_untouched(mesh, prepare(mesh))
+
+
+@pytest.mark.parametrize(("name", "genus"), GENUS.items())
+def test_handles_of_models_are_cut(data_root, name, genus):
+    path = data_root / "surfaces" / "higher_genus" / f"{name}.off"
+    surface = prepare(path)
+    assert surface.report.before.genus == genus
+    assert surface.report.steps[0].figures["handles"] == genus
+    assert surface.mesh.volume == pytest.approx(load_mesh(path).volume, rel=0.05)
+    assert_genus_zero(surface.mesh)
+    assert not prepare(surface.mesh).report.changed
+
+
+@pytest.mark.parametrize("name", REPAIRED)
+def test_broken_models_are_repaired(data_root, name):
+    surface = prepare(data_root / "surfaces" / "defective" / f"{name}.off")
+    assert_genus_zero(surface.mesh)
+    assert not prepare(surface.mesh).report.changed
+
+
+@pytest.mark.parametrize(("name", "fault"), REFUSED.items())
+def test_other_broken_models_are_refused_by_name(data_root, name, fault):
+    with pytest.raises(UnsupportedMesh, match=fault) as caught:
+        prepare(data_root / "surfaces" / "defective" / name)
+    assert str(caught.value).startswith(f"{name}: ")
+
+
+def test_every_broken_model_is_in_one_of_the_lists(data_root):
+    folder = data_root / "surfaces" / "defective"
+    listed = {f"{name}.off" for name in REPAIRED} | set(REFUSED)
+    assert {path.name for path in folder.iterdir()} == listed
+
+
+def test_shrec11_of_genus_one(data_root):
+    """All 12 become of genus 0, and the marks of the cut are small."""
+    cut = []
+    with tarfile.open(data_root / "shrec11" / "shrec_16.tar.gz") as archive:
+        for member in archive:
+            if not member.name.endswith(".obj"):
+                continue
+            text = archive.extractfile(member).read().decode()
+            if text.count("\nf ") != 500 or ("\n" + text).count("\nv ") == 252:
+                continue
+            loaded = trimesh.load(io.StringIO(text), file_type="obj", process=False)
+            surface = prepare(loaded)
+            assert surface.report.before.genus == 1
+            assert [step.name for step in surface.report.steps] == ["cut handles"]
+            assert 2 <= (~surface.mask).sum() <= 4
+            assert surface.mesh.volume == pytest.approx(loaded.volume, rel=0.01)
+            assert_genus_zero(surface.mesh)
+            cut.append(member.name.split("/")[1])
+    names = ["alien"] * 7 + ["cat"] + ["dog1"] * 2 + ["man", "woman"]
+    assert sorted(cut) == names
+
+
+def tosca(archive, names, folder=""):
+    with tarfile.open(archive) as opened:
+        for name in names.split():
+            data = io.BytesIO(opened.extractfile(f"{folder}{name}.mat").read())
+            surface = loadmat(data)["surface"][0, 0]
+            vertices = np.column_stack([surface[axis].ravel() for axis in "XYZ"])
+            yield bare(vertices, surface["TRIV"].astype(np.int64) - 1)
+
+
+@pytest.mark.parametrize(
+    ("archive", "folder", "names"),
+    [
+        ("nonrigid3d_mat.tar.gz", "nonrigid3d/", TOSCA_LOW),
+        ("toscahires_mat.tar", "", TOSCA_HIGH),
+    ],
+    ids=["low", "high"],
+)
+def test_tosca(data_root, archive, folder, names):
+    for mesh in tosca(data_root / "tosca" / archive, names, folder):
+        surface = prepare(mesh)
+        assert_closed(surface.mesh)
+        assert surface.mesh.area > 0.9 * mesh.area
+        assert not prepare(surface.mesh).report.changed
+
+
+SOUPS = {
+    "bathtub_0001": "no volume",
+    "bathtub_0004": None,
+    "bathtub_0005": None,
+    "airplane_0004": "one side",
+    "guitar_0001": "parts has only 29%",
+    "toilet_0001": "parts has only 33%",
+}
+
+
+@pytest.mark.parametrize(("name", "fault"), SOUPS.items())
+def test_soups_of_modelnet_are_surfaces_or_refused(data_root, tmp_path, name, fault):
+    file = tmp_path / f"{name}.off"
+    with tarfile.open(data_root / "modelnet10" / "modelnet_samples_off.tar.xz") as archive:
+        member = next(m for m in archive if m.name.endswith(file.name))
+        file.write_bytes(archive.extractfile(member).read())
+    if fault is None:
+        assert_closed(prepare(file).mesh)
+    else:
+        with pytest.raises(UnsupportedMesh, match=fault):
+            prepare(file)
