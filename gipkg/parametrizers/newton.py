@@ -63,10 +63,10 @@ def minimize(
         sphere, value = moved, reached
         if gain < tolerance:
             break
-        if length == 1:
-            damping = max(damping / 4, _LEAST_DAMPING)
-        elif length < 0.25:
-            damping *= 4
+        if length >= 0.5:
+            damping = max(damping / 8, _LEAST_DAMPING)
+        elif length < 0.1:
+            damping *= 2
     return sphere
 
 

@@ -49,7 +49,7 @@ def least_distorted_map(
     check_genus_zero(mesh)
     vertices = np.asarray(mesh.vertices, np.float64)
     faces = np.asarray(mesh.faces, np.int64)
-    areas, cotangents = _triangle_shapes(vertices, faces)
+    areas, cotangents = triangle_shapes(vertices, faces)
     targets = areas * (4 * np.pi / areas.sum())
     start = embed(vertices, faces, targets)
     # Between uniform weights, with which slivers rule, and areas, with which they are ignored.
@@ -60,7 +60,7 @@ def least_distorted_map(
     return sphere
 
 
-def _triangle_shapes(
+def triangle_shapes(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Areas (F,) and cotangents of the corners' angles (F, 3)."""

@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from gipkg.parametrizers.energy import MapEnergy
-from gipkg.parametrizers.optimal_map import _triangle_shapes
+from gipkg.parametrizers.optimal_map import triangle_shapes
 from tests.support.shapes import ellipsoid, icosphere
 
 
 def _energy(mesh, shape: float) -> MapEnergy:
-    areas, cotangents = _triangle_shapes(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    areas, cotangents = triangle_shapes(np.asarray(mesh.vertices), np.asarray(mesh.faces))
     targets = areas * 4 * np.pi / areas.sum()
     weights = np.sqrt(targets * targets.mean())
     return MapEnergy(np.asarray(mesh.faces), targets, weights, cotangents, shape)
