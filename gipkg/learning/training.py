@@ -17,7 +17,6 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
-from torch.nn.functional import cross_entropy
 from torch.optim import SGD, AdamW, Optimizer
 
 from gipkg.errors import LearningError
@@ -103,10 +102,11 @@ def train(
     network.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # not annotated
     network.train()
     optimiser = make_optimiser(network, config)
+    criterion = nn.CrossEntropyLoss(label_smoothing=config.label_smoothing)
     bfloat16 = computes_in_bfloat16(device, config.precision)
     store, start = None, 0
     if checkpoint is not None:
-        description = f"{config.model_dump_json()} {seed} {device.type} {bfloat16}"
+        description = f"{network} {config.model_dump_json()} {seed} {device.type} {bfloat16}"
         weights = [value.cpu() for value in network.state_dict().values()]
         store = Checkpoint(checkpoint, fingerprint(description, classes, views, *weights))
         start = store.restore(network, optimiser, device)
@@ -114,8 +114,8 @@ def train(
     flat = views.flatten(0, 1)
     classes = classes.repeat_interleave(views.shape[1])
     steps = number_of_steps(config, len(flat))
-    saved = time.monotonic()
     order = batches(len(flat), config.batch_size, seed, start)
+    saved = time.monotonic()
     for step in progress(range(start, steps), "training", done=start):
         index = torch.from_numpy(next(order))
         images = flat[index].permute(0, 3, 1, 2)
@@ -126,19 +126,21 @@ def train(
         torch.manual_seed(int(np.random.SeedSequence([seed, step]).generate_state(1, np.uint64)[0]))
         with torch.autocast(device.type, torch.bfloat16, enabled=bfloat16):
             scores, _ = network(images.to(device))
-            loss = cross_entropy(
-                scores, classes[index].to(device), label_smoothing=config.label_smoothing
-            )
-        if not torch.isfinite(loss):
-            raise LearningError(
-                f"training diverged at step {step} of {steps}: lower learning_rate, or set "
-                "scaling to 'channel'"
-            )
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
+            loss = criterion(scores, classes[index].to(device))
+        _descend(optimiser, loss, f"step {step} of {steps}")
         if store and time.monotonic() - saved >= SECONDS_BETWEEN_CHECKPOINTS:
             store.save(step + 1, network, optimiser)
             saved = time.monotonic()
     if store and start < steps:
         store.save(steps, network, optimiser)
+
+
+def _descend(optimiser: Optimizer, loss: Tensor, where: str) -> None:
+    """Take one step down the gradient of a finite loss."""
+    if not torch.isfinite(loss):
+        raise LearningError(
+            f"training diverged at {where}: lower learning_rate, or set scaling to 'channel'"
+        )
+    optimiser.zero_grad()
+    loss.backward()
+    optimiser.step()

@@ -13,7 +13,7 @@ import torch
 from gipkg.errors import DamagedFileError, LearningError
 from gipkg.learning import checkpoint as checkpoints
 from gipkg.learning import training as loop
-from gipkg.learning.config import AS_IN_THE_PAPER, NetworkConfig, TrainingConfig
+from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.experiment import train_and_predict
 from gipkg.learning.prediction import Prediction
 from tests.learning.synthetic import synthetic_images
@@ -22,8 +22,8 @@ IMAGES, LABELS = synthetic_images(18)
 IDS = tuple(IMAGES)
 TRAIN, TEST = IDS[:9], IDS[9:]
 SMALL = NetworkConfig(widths=(6, 8, 10), dropout=0.2)
-SHORT = TrainingConfig(epochs=8, batch_size=12)
-LONGER = TrainingConfig(epochs=30, batch_size=12)
+SHORT = TrainingConfig(epochs=8, minimum_steps=1, batch_size=12)
+LONGER = TrainingConfig(epochs=15, minimum_steps=1, batch_size=12)
 
 
 def run(images: Any = IMAGES, **changes: Any) -> Prediction:
@@ -57,11 +57,16 @@ def test_it_learns_channels_of_any_scale(undisturbed: Prediction) -> None:
 
 
 def test_the_variant_of_the_paper_learns() -> None:
-    network, training = AS_IN_THE_PAPER
-    images = {i: views / np.array([[[1e-3]], [[1e4]]], np.float32) for i, views in IMAGES.items()}
-    found = run(
-        images, network=network, training=training.model_copy(update={"minimum_steps": 150})
+    training = TrainingConfig(
+        minimum_steps=150,
+        optimiser="sgd",
+        learning_rate=1e-2,
+        schedule="steps",
+        weight_decay=1e-4,
+        scaling="none",
     )
+    images = {i: views / np.array([[[1e-3]], [[1e4]]], np.float32) for i, views in IMAGES.items()}
+    found = run(images, network=NetworkConfig(batch_normalisation=False), training=training)
     assert accuracy(found) == 1.0
 
 
@@ -169,7 +174,7 @@ def test_a_finished_training_is_not_repeated(
 ) -> None:
     path = tmp_path / "state.pt"
     run(checkpoint=path)
-    monkeypatch.setattr(loop, "cross_entropy", None)
+    monkeypatch.setattr(loop, "_descend", None)
     assert_equal(run(checkpoint=path), undisturbed)
 
 
@@ -178,6 +183,8 @@ def test_the_checkpoint_of_another_training_is_not_used(
 ) -> None:
     path = tmp_path / "state.pt"
     run(checkpoint=path, training=SHORT.model_copy(update={"epochs": 2}))
+    assert_equal(run(checkpoint=path), undisturbed)
+    run(checkpoint=path, network=SMALL.model_copy(update={"dropout": 0.3}))
     assert_equal(run(checkpoint=path), undisturbed)
     run({**IMAGES, TRAIN[0]: IMAGES[TRAIN[0]] + 1e-3}, checkpoint=path)
     assert_equal(run(checkpoint=path), undisturbed)
