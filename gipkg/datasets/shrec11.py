@@ -77,12 +77,8 @@ class Shrec11(Dataset):
             raise DatasetNotFound(f"shrec11 has no shape {shape_id!r}; it has T0 to T599")
         content = read_members(root / ARCHIVE, SHA256, ".obj")[str(member)]
         try:
-            mesh = trimesh.load(
-                io.BytesIO(content),
-                file_type="obj",
-                force="mesh",
-                process=False,
-                maintain_order=True,
+            mesh = trimesh.load_mesh(
+                io.BytesIO(content), file_type="obj", process=False, maintain_order=True
             )
         except (ValueError, IndexError, KeyError) as error:
             raise MeshFormatError(root / ARCHIVE / member, f"not an OBJ mesh ({error})") from error
@@ -92,6 +88,6 @@ class Shrec11(Dataset):
 
     @staticmethod
     def _members(root: Path) -> dict[str, PurePosixPath]:
-        """Identifier -> member of the archive."""
+        """Find the archive's member of every identifier."""
         names = map(PurePosixPath, read_members(root / ARCHIVE, SHA256, ".obj"))
         return {name.stem: name for name in names}
