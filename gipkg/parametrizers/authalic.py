@@ -35,7 +35,7 @@ class Authalic(Parametrizer):
     )
     max_iterations: int = Field(100, ge=1, le=10_000, description="Gauss-Newton steps at most")
     tolerance: float = Field(
-        1e-4, ge=0, lt=1, description="stop when a step lowers the energy by less than this share"
+        1e-3, ge=0, lt=1, description="stop when a step lowers the energy by less than this share"
     )
 
     def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
