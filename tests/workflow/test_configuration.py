@@ -1,0 +1,88 @@
+"""A fault of the configuration stops a run at once and names the key and the choices."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.workflow.workdir import REPOSITORY, Workdir
+
+LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shallow"}
+
+
+@pytest.mark.parametrize(
+    ("config", "words"),
+    [
+        ({"colums": []}, ["the top level", "'colums'", "columns", "seeds"]),
+        ({"eigenpairs": "many"}, ["eigenpairs", "'many'", "integer"]),
+        ({"images": {"sampling": "authors'"}}, ["images.sampling", "equal-area", "authors"]),
+        ({"databases": ["tini"]}, ["databases", "'tini'", "did you mean 'tiny'", "shrec11"]),
+        (
+            {"columns": [{"column": "A", **LEARNED, "parametrizer": "authalik"}]},
+            ["columns.0.parametrizer", "did you mean 'authalic'", "conformal"],
+        ),
+        (
+            {"columns": [{"column": "A", "baseline": "zernike", **LEARNED}]},
+            ["columns.0", "'network'", "keys: column, baseline, paper"],
+        ),
+        (
+            {"columns": [{"column": "A b", **LEARNED}, {"column": "a-B", **LEARNED}]},
+            ["columns.1", "'a-b' names two columns"],
+        ),
+        (
+            {"parametrizers": {"authalic": {"plugin": "authalik"}}},
+            ["parametrizers.authalic", "did you mean 'authalic'", "conformal"],
+        ),
+        (
+            {"descriptors": {"hks": {"plugin": "hks", "time": 3}}},
+            ["descriptors.hks", "'time'", "did you mean 'times'", "logarithm"],
+        ),
+        (
+            {"networks": {"shallow": {"training": {"epochs": 0}}}},
+            ["networks.shallow", "epochs", ">= 1"],
+        ),
+        (
+            {"baselines": {"shapedna": {"plugin": "absent.py:Mine"}}},
+            ["baselines.shapedna", "absent.py"],
+        ),
+    ],
+)
+def test_a_fault_is_named(tmp_path: Path, config: dict[str, object], words: list[str]) -> None:
+    done = Workdir(tmp_path).run("--dry-run", config=config)
+    assert done.returncode != 0
+    message = next(line for line in done.stdout.splitlines() if line.startswith("configuration, "))
+    assert [word for word in words if word not in message] == []
+
+
+def test_a_database_asked_for_by_name_and_not_to_be_had(tmp_path: Path) -> None:
+    nowhere = "http://127.0.0.1:9"
+    done = Workdir(tmp_path).run(
+        "results/datasets/shrec11/shapes.csv",
+        config={"databases": ["shrec11"]},
+        environment={"http_proxy": nowhere, "https_proxy": nowhere, "no_proxy": ""},
+    )
+    assert done.returncode != 0
+    assert "DatasetNotFound" in done.stdout
+    assert "https://" in done.stdout
+    assert "data/shrec11" in done.stdout
+
+
+def test_the_generated_database_stands_in_where_no_real_one_is(tmp_path: Path) -> None:
+    done = Workdir(tmp_path).run("--dry-run", config={"databases": "auto"})
+    assert "results/evaluation/articulated/ours/Articulated1.json" in done.stdout
+    assert "results/evaluation/shrec11" not in done.stdout
+
+
+def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None:
+    config = {"databases": "auto", "data_root": str(data_root)}
+    done = Workdir(tmp_path).run("--dry-run", config=config)
+    assert "results/evaluation/shrec11/ours/SHREC2.json" in done.stdout
+    assert "results/evaluation/articulated" not in done.stdout
+
+
+def test_every_key_is_explained() -> None:
+    schema = yaml.safe_load((REPOSITORY / "workflow/schemas/config.schema.yaml").read_text())
+    text = (REPOSITORY / "config/README.md").read_text()
+    assert [key for key in schema["properties"] if f"### `{key}`" not in text] == []

@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gipkg.shards import Shard
+from tests.workflow.workdir import Workdir
+
+
+def test_the_table_has_a_row_a_split_and_every_figure_in_its_range(smoke: Workdir) -> None:
+    with (smoke.path / "results/table1.csv").open() as stream:
+        (row,) = csv.DictReader(stream)
+    assert (row.pop("database"), row.pop("split")) == ("tiny", "Tiny1")
+    assert len(row) == 16
+    for name, value in row.items():
+        upper = 100 if "accuracy" in name else 1
+        assert 0 <= float(value) <= upper, name
+    # Ten classes: guessing reaches 10 %.
+    assert float(row["Ours accuracy mean"]) > 30
+    assert float(row["ShapeDNA accuracy mean"]) > 30
+
+
+def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
+    with (smoke.path / "results/datasets/tiny/shapes.csv").open() as stream:
+        ids = {row["id"] for row in csv.DictReader(stream)}
+    assert len(ids) == 40
+    for column in ("conformal", "authalic"):
+        folder = smoke.path / "results/images/tiny" / column / "hks"
+        shards = [Shard.open(path) for path in sorted(folder.iterdir())]
+        assert len(shards) == 2
+        assert {shape_id for shard in shards for shape_id in shard} == ids
+        images = next(iter(shards[0].values()))["images"]
+        assert images.shape == (36, 5, 56, 56)
+        assert images.dtype == np.float32
+
+
+def test_unfinished_work_is_gone(smoke: Workdir) -> None:
+    names = [path.name for path in (smoke.path / "results").rglob("*")]
+    assert not [name for name in names if name.endswith((".work", ".pt", ".part"))]
+
+
+def test_the_provenance_says_what_made_the_table(smoke: Workdir) -> None:
+    provenance = json.loads((smoke.path / "results/table1.json").read_text())
+    assert provenance["gipkg"]["version"]
+    assert provenance["libraries"]["numpy"] == np.__version__
+    assert provenance["config"]["seeds"] == [0, 1]
+    assert provenance["plugins"]["parametrizer"]["authalic"]["code"]
+    assert provenance["networks"]["ours"]["training"]["minimum_steps"] == 20
+    assert provenance["databases"]["tiny"]["failures"]["Ours"] == {}
+    assert provenance["databases"]["tiny"]["survey"]["surfaces"] == 40
+
+
+def test_a_second_run_does_nothing(smoke: Workdir) -> None:
+    assert smoke.planned() == {}
+
+
+def test_a_killed_run_is_taken_up_by_the_same_command(smoke: Workdir, tmp_path: Path) -> None:
+    workdir = Workdir(tmp_path)
+    run = subprocess.Popen(
+        workdir.command(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    maps = tmp_path / "results" / "parametrizers"
+    while run.poll() is None and not list(maps.rglob("*.work/*/*.npz")):
+        time.sleep(0.01)
+    os.killpg(run.pid, signal.SIGKILL)
+    assert run.wait() == -signal.SIGKILL
+    assert not (tmp_path / "results/table1.csv").exists()
+
+    done = workdir.run()
+    assert done.returncode == 0, done.stdout
+    undisturbed = smoke.hashes()
+    assert len(undisturbed) > 30
+    assert workdir.hashes() == undisturbed
+
+
+@pytest.mark.parametrize("damaged", ["results/images/tiny/authalic/hks/0.npz"])
+def test_a_damaged_intermediate_file_is_named(smoke: Workdir, tmp_path: Path, damaged: str) -> None:
+    workdir = smoke.copy(tmp_path)
+    path = tmp_path / damaged
+    content = path.read_bytes()
+    path.unlink()
+    path.write_bytes(content[: len(content) // 2])
+    done = workdir.run("--forcerun", "learn", "--until", "learn")
+    assert done.returncode != 0
+    assert f"DamagedFileError: {damaged}" in done.stdout

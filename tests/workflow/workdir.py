@@ -1,0 +1,94 @@
+"""A folder that the workflow runs in, and what can be asked of it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+
+import yaml
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+SMOKE = REPOSITORY / "config" / "smoke.yaml"
+
+
+@dataclass(frozen=True)
+class Workdir:
+    """A folder that the workflow runs in.
+
+    Attributes
+    ----------
+    path : Path
+    checkout : Path
+        The code: a working copy of the repository, whose own package its Snakefile finds first.
+    """
+
+    path: Path
+    checkout: Path = REPOSITORY
+
+    def command(
+        self, *arguments: str | Path, config: Mapping[str, object] | None = None
+    ) -> list[str]:
+        """Return the command line of a run of the smoke configuration, changed by `config`."""
+        files = [str(SMOKE)]
+        if config is not None:
+            changes = self.path / "changes.yaml"
+            changes.write_text(yaml.safe_dump(dict(config)), encoding="utf-8")
+            files.append(str(changes))
+        return [
+            *(sys.executable, "-m", "snakemake", "--snakefile", str(self.checkout / "Snakefile")),
+            *("--directory", str(self.path), "--cores", "2", "--nolock"),
+            *map(str, arguments),
+            *("--configfile", *files),
+        ]
+
+    def run(
+        self,
+        *arguments: str | Path,
+        config: Mapping[str, object] | None = None,
+        environment: Mapping[str, str] | None = None,
+    ) -> subprocess.CompletedProcess[str]:
+        """Run the workflow to its end."""
+        return subprocess.run(
+            self.command(*arguments, config=config),
+            cwd=self.path,
+            env={**os.environ, **(environment or {})},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+
+    def planned(
+        self,
+        config: Mapping[str, object] | None = None,
+        environment: Mapping[str, str] | None = None,
+    ) -> dict[str, int]:
+        """Return the jobs that a run would do: rule -> how many."""
+        done = self.run("--dry-run", config=config, environment=environment)
+        assert done.returncode == 0, done.stdout
+        listing = done.stdout.partition("Job stats:")[2].partition("\n\n")[0]
+        counts = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", listing, re.M)}
+        counts.pop("total", None)
+        return counts
+
+    def hashes(self) -> dict[str, str]:
+        """Return the hash of every result but logs and timings."""
+        results = self.path / "results"
+        return {
+            str(path.relative_to(results)): sha256(path.read_bytes()).hexdigest()
+            for path in sorted(results.rglob("*"))
+            if path.is_file() and path.relative_to(results).parts[0] not in {"logs", "benchmarks"}
+        }
+
+    def copy(self, target: Path) -> Workdir:
+        """Return a folder with the same results: linked, since results are only ever replaced."""
+        shutil.copytree(self.path / "results", target / "results", copy_function=os.link)
+        shutil.copytree(self.path / ".snakemake", target / ".snakemake")
+        return Workdir(target)
