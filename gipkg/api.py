@@ -189,6 +189,7 @@ class DatasetTags:
     """Made by gipkg itself; never shown under a real database's name."""
     shapes: int
     classes: int
+    """How many there are with the default parameters."""
     licence: str
     source: str
     """Address of the files, or how they are generated."""

@@ -6,6 +6,7 @@ import gzip
 import hashlib
 import lzma
 import tarfile
+import warnings
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -18,8 +19,16 @@ MEMORY_LIMIT = 256 * 2**20
 
 
 def is_intact(path: Path, sha256: str) -> bool:
-    """Whether a file exists and has the SHA-256 given; hashed once a process and version."""
-    return path.is_file() and _sha256(*_version(path)) == sha256
+    """Whether an archive is there with the SHA-256 given; warns of one that has another.
+
+    The checksum is computed once a process for a file of the same size and time.
+    """
+    if not path.is_file():
+        return False
+    found = _sha256(*_version(path))
+    if found != sha256:
+        warnings.warn(_damage(path, found, sha256), stacklevel=2)
+    return found == sha256
 
 
 def read_members(path: Path, sha256: str, suffix: str) -> Mapping[str, bytes]:
@@ -45,11 +54,9 @@ def read_members(path: Path, sha256: str, suffix: str) -> Mapping[str, bytes]:
     """
     if not path.is_file():
         raise DatasetNotFound(f"{path}: no such file; fetch the database, or put the archive there")
-    if not is_intact(path, sha256):
-        raise DatasetNotFound(
-            f"{path}: SHA-256 {_sha256(*_version(path))} instead of {sha256}: the file is "
-            f"truncated or of another version; delete it and fetch the database again"
-        )
+    found = _sha256(*_version(path))
+    if found != sha256:
+        raise DatasetNotFound(_damage(path, found, sha256))
     return _read_members(*_version(path), suffix)
 
 
@@ -86,6 +93,13 @@ def fetch_archive(path: Path, sha256: str, sources: Sequence[str]) -> None:
     raise DatasetNotFound(
         f"{path.name} cannot be downloaded. Put it in {path.parent}, from one of\n"
         + "\n".join(failures)
+    )
+
+
+def _damage(path: Path, found: str, wanted: str) -> str:
+    return (
+        f"{path}: SHA-256 {found} instead of {wanted}: the file is truncated or of another "
+        f"version; delete it and fetch the database again"
     )
 
 

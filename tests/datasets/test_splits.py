@@ -1,0 +1,62 @@
+"""Random splits: a partition, stratified, and a function of identifiers, classes and seed."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gipkg.api import Shape
+from gipkg.datasets import random_split
+from gipkg.errors import SplitError
+
+
+@st.composite
+def databases(draw: st.DrawFn) -> tuple[list[Shape], int]:
+    train_per_class = draw(st.integers(1, 4))
+    sizes = draw(st.lists(st.integers(train_per_class + 1, 9), min_size=1, max_size=5))
+    shapes = [Shape(f"s{c}-{i}", f"class {c}") for c, n in enumerate(sizes) for i in range(n)]
+    return draw(st.permutations(shapes)), train_per_class
+
+
+@given(databases(), st.integers(0, 2**32), st.randoms(use_true_random=False))
+def test_is_a_stratified_partition_whatever_the_order(database, seed, random):
+    shapes, train_per_class = database
+    train, test = random_split(shapes, train_per_class, seed)
+    assert sorted(train + test) == sorted(shape.id for shape in shapes)
+    assert list(train) == sorted(train)
+    assert list(test) == sorted(test)
+    label = {shape.id: shape.label for shape in shapes}
+    for name in set(label.values()):
+        assert sum(label[i] == name for i in train) == train_per_class
+
+    shuffled = list(shapes)
+    random.shuffle(shuffled)
+    assert random_split(shuffled, train_per_class, seed) == (train, test)
+
+
+def test_a_class_keeps_its_split_when_another_is_added():
+    first = [Shape(f"a{i}", "a") for i in range(20)]
+    second = [Shape(f"b{i}", "b") for i in range(20)]
+    alone, _ = random_split(first, 10, seed=3)
+    together, _ = random_split(first + second, 10, seed=3)
+    assert set(alone) == {i for i in together if i.startswith("a")}
+    assert {i[1:] for i in together if i.startswith("b")} != {i[1:] for i in alone}
+
+
+def test_seeds_give_different_splits_that_use_every_shape():
+    shapes = [Shape(f"{c}{i}", c) for c in "ab" for i in range(20)]
+    trains = [random_split(shapes, 10, seed)[0] for seed in range(20)]
+    assert len(set(trains)) == 20
+    assert set().union(*trains) == {shape.id for shape in shapes}
+
+
+def test_too_few_shapes_names_the_class():
+    shapes = [Shape(f"a{i}", "a") for i in range(5)] + [Shape(f"b{i}", "b") for i in range(4)]
+    with pytest.raises(SplitError, match="'b' has 4 shapes"):
+        random_split(shapes, 4, seed=0)
+
+
+def test_at_least_one_shape_trains():
+    with pytest.raises(SplitError, match="train_per_class"):
+        random_split([Shape("a", "a"), Shape("b", "a")], 0, seed=0)
