@@ -51,3 +51,11 @@ def test_a_shuffled_layout_keeps_the_values_and_moves_all_images_alike() -> None
         for channel in range(3):
             offset = float(raw["places"][view, channel, 0, 0])
             assert torch.equal(views[view, :, channel], places + offset)
+
+
+def test_padding_a_mirrored_image_is_mirroring_a_padded_one() -> None:
+    # The training mirrors padded views by transposing them.
+    raw = images()["s0"]
+    mirrored = {"s0": raw.swapaxes(-1, -2)}
+    views = stack({"s0": raw}, ["s0"], Layout(margin=3))
+    assert torch.equal(stack(mirrored, ["s0"], Layout(margin=3)), views.transpose(2, 3))
