@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import pytest
+
+from gipkg import registry
+from gipkg.reporting import notes
+from gipkg.reporting.survey import Survey, survey
+
+
+def report(vertices: int, *steps: str) -> dict[str, object]:
+    return {"after": {"vertices": vertices}, "steps": [{"name": name} for name in steps]}
+
+
+def test_a_survey_counts_surfaces_vertices_repairs_and_failures() -> None:
+    reports = {"a": report(10), "b": report(30, "cut handles", "fill holes"), "c": report(20)}
+    found = survey(reports, {"d": "UnsupportedMesh: open"})
+    assert found == Survey(
+        surfaces=3,
+        vertices=(10, 20, 30),
+        repaired={"b": ["cut handles", "fill holes"]},
+        failures={"d": "UnsupportedMesh: open"},
+    )
+    with pytest.raises(ValueError, match="no surface"):
+        survey({}, {"d": "UnsupportedMesh: open"})
+
+
+def test_a_generated_database_is_never_taken_for_a_real_one() -> None:
+    found = Survey(200, (1000, 2000, 3000), {"pliers-001": ["cut handles"]}, {})
+    made = notes.database_note(
+        "made", ["M1", "M2"], registry.create("dataset", "articulated"), found
+    )
+    assert made.startswith("**M1, M2**: `made`, ")
+    assert "200 surfaces of 1000 to 3000 vertices (median 2000), 1 of them repaired." in made
+    assert "the paper has no figures for it" in made
+    real = notes.database_note("shrec11", ["S1"], registry.create("dataset", "shrec11"), found)
+    assert "Generated" not in real
+
+
+def test_a_column_names_its_methods() -> None:
+    plugins = {
+        ("descriptor", "hks-raw"): registry.create("descriptor", "hks", {"logarithm": False}),
+        ("parametrizer", "map"): registry.create("parametrizer", "conformal"),
+        ("baseline", "dna"): registry.create("baseline", "shapedna"),
+    }
+    learned = {"column": "X", "parametrizer": "map", "descriptors": ["hks-raw"], "network": "n"}
+    note = notes.column_note(learned, plugins)
+    for word in ("**X**: ", "parametrizer `map` (", "descriptor `hks-raw` (", "network `n`."):
+        assert word in note
+    note = notes.column_note({"column": "Y", "baseline": "dna"}, plugins)
+    assert note.startswith("**Y**: baseline `dna` (")
+    assert "network" not in note
+
+
+def test_failures_are_named_with_nothing_of_them_taken_as_markup() -> None:
+    note = notes.failure_note("Ours", "db", {"b": "open", "a`|<b>": "two\nlines"})
+    assert note.endswith("`a'¦<b>` (`two lines`); `b` (`open`).")
+    assert "lost 2 shapes of `db`" in note
