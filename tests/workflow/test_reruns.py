@@ -23,17 +23,18 @@ from gipkg.api import Baseline
 
 
 class Extent(Baseline):
-    """Sorted side lengths of the box along the principal axes."""
+    """Proportions of the box along the principal axes."""
 
-    summary: ClassVar[str] = "Sorted extent along the principal axes"
+    summary: ClassVar[str] = "Proportions of the box along the principal axes"
     citation: ClassVar[str] = "none"
 
-    power: float = Field(1.0, gt=0, description="Power that the lengths are raised to.")
+    power: float = Field(1.0, gt=0, description="Power that the proportions are raised to.")
 
     def represent(self, mesh, operators):
         centred = mesh.vertices - mesh.vertices.mean(axis=0)
         axes = np.linalg.svd(centred, full_matrices=False)[2]
-        return np.sort(np.ptp(centred @ axes.T, axis=0)) ** self.power
+        extent = np.sort(np.ptp(centred @ axes.T, axis=0))
+        return (extent / extent[-1]) ** self.power
 '''
 
 
@@ -100,7 +101,7 @@ def test_a_file_of_ones_own_becomes_a_column(smoke: Workdir, tmp_path: Path) -> 
         (before,) = csv.DictReader(stream)
     assert 10 < float(row["Mine accuracy mean"]) <= 100
     assert row["ShapeDNA mAP mean"] == before["ShapeDNA mAP mean"]
-    assert "Sorted extent" in (tmp_path / "results/table1.md").read_text()
+    assert "Proportions of the box" in (tmp_path / "results/table1.md").read_text()
     assert workdir.planned(config) == {}
 
     (tmp_path / "extent.py").write_text(EXTENT.replace("np.ptp", "2 * np.ptp"))
