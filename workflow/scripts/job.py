@@ -18,9 +18,9 @@ from gipkg.shards import Arrays, content_key, map_shard
 
 def start(snakemake: Any) -> None:
     """Send all output of this process to the job's log; say errors of ours in one line."""
-    log = os.open(snakemake.log[0], os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
-    for stream in (sys.stdout, sys.stderr):
-        os.dup2(log, stream.fileno())
+    with Path(snakemake.log[0]).open("w", encoding="utf-8") as log:
+        for stream in (sys.stdout, sys.stderr):
+            os.dup2(log.fileno(), stream.fileno())
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     sys.excepthook = _say
 
