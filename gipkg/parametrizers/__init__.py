@@ -2,7 +2,8 @@
 
 The way of the built-in maps: :mod:`.hierarchy` coarsens the mesh to a tetrahedron,
 :mod:`.embedding` refines that on the sphere without a flip, :mod:`.newton` descends the
-distortion :mod:`.energy` from there, and :mod:`.spherical_areas` proves the result bijective.
+distortion :mod:`.energy` from there, :mod:`.exact_areas` may remove what is left of it at the
+vertices, and :mod:`.spherical_areas` proves the result bijective.
 """
 
 from __future__ import annotations

@@ -37,6 +37,10 @@ class Authalic(Parametrizer):
     tolerance: float = Field(
         1e-3, ge=0, lt=1, description="stop when a step lowers the energy by less than this share"
     )
+    exact_areas: bool = Field(
+        False,
+        description="end on exact areas of all vertices; those of faces get up to thrice worse",
+    )
 
     def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
@@ -48,4 +52,5 @@ class Authalic(Parametrizer):
             shape_weight=self.shape_weight,
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,
+            exact_areas=self.exact_areas,
         )

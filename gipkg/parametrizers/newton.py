@@ -8,6 +8,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from gipkg.parametrizers.energy import MapEnergy
+from gipkg.parametrizers.tangent import tangent_basis
 
 _START_DAMPING = 1e-2
 _LEAST_DAMPING, _MOST_DAMPING = 1e-9, 1e4
@@ -45,7 +46,7 @@ def minimize(
     value = energy.value(sphere)
     damping = _START_DAMPING
     for _ in range(max_iterations):
-        basis = _tangent_basis(sphere)
+        basis = tangent_basis(sphere)
         gradient, blocks = energy.derivatives(sphere, basis, damping)
         try:
             coordinates = -system.solve(blocks, gradient).reshape(-1, 2)
@@ -83,14 +84,6 @@ def _search(
             return length, moved, reached
         length /= 2
     return 0.0, sphere, value
-
-
-def _tangent_basis(sphere: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Two orthonormal tangent vectors at every point: (V, 3) -> (V, 2, 3)."""
-    axis = np.eye(3)[np.abs(sphere).argmin(axis=1)]
-    first = axis - sphere * np.einsum("ij,ij->i", axis, sphere)[:, None]
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return np.stack((first, np.cross(sphere, first)), axis=1)
 
 
 class _BlockSystem:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from gipkg.errors import ParametrizationError
 from gipkg.parametrizers.embedding import embed
 from gipkg.parametrizers.energy import MapEnergy
+from gipkg.parametrizers.exact_areas import project_onto_vertex_areas
 from gipkg.parametrizers.newton import minimize
 from gipkg.parametrizers.spherical_areas import flipped_faces, signed_spherical_areas
 from gipkg.surfaces.validation import check_genus_zero
@@ -21,6 +22,7 @@ def least_distorted_map(
     shape_weight: float,
     max_iterations: int,
     tolerance: float,
+    exact_areas: bool = False,
 ) -> NDArray[np.float64]:
     """Find a bijective spherical map of least area and shape distortion.
 
@@ -33,6 +35,8 @@ def least_distorted_map(
     max_iterations : int
     tolerance : float
         Relative decrease of the energy that ends the descent.
+    exact_areas : bool
+        Project the result onto exact vertex areas.
 
     Returns
     -------
@@ -56,6 +60,8 @@ def least_distorted_map(
     weights = area_weight * np.sqrt(targets * targets.mean())
     energy = MapEnergy(faces, targets, weights, cotangents, shape_weight)
     sphere = minimize(energy, start, max_iterations=max_iterations, tolerance=tolerance)
+    if exact_areas:
+        sphere = project_onto_vertex_areas(energy, sphere)
     _verify(sphere, faces)
     return sphere
 
