@@ -5,7 +5,7 @@ three convolutions, a fully connected layer of 48, a softmax, no padding inside 
 the rest is our choice and stands here as defaults, chosen on splits of SHREC'11 training parts.
 
 As in the paper, with the raw HKS, is ``batch_normalisation=False`` and 30 ``epochs`` of ``sgd``
-at 0.01 in ``steps`` with a ``weight_decay`` of 1e-4, and ``scaling="none"``. What the paper leaves
+at 0.01 in ``steps`` with a ``weight_decay`` of 1e-4, and ``scaling="joint"``. What the paper leaves
 open there follows the same authors' SurfNet (Sinha, Unmesh, Huang & Ramani, CVPR 2017).
 """
 
@@ -79,10 +79,10 @@ class TrainingConfig(BaseModel):
         description="Show every other image mirrored: the image of the mirrored shape. Only "
         "for channels that a mirror leaves unchanged, such as the HKS.",
     )
-    scaling: Literal["channel", "none"] = Field(
+    scaling: Literal["channel", "joint"] = Field(
         default="channel",
-        description="Give every channel mean 0 and deviation 1 over the training part, or feed "
-        "the channels as they are.",
+        description="Give every channel mean 0 and deviation 1 over the training part, or all "
+        "channels together, which keeps their proportions.",
     )
     shuffle_pixels: bool = Field(
         default=False,

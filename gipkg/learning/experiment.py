@@ -15,7 +15,7 @@ from gipkg.learning.device import choose_device, reproducible
 from gipkg.learning.network import ShallowNetwork
 from gipkg.learning.prediction import Prediction
 from gipkg.learning.training import train
-from gipkg.learning.views import Layout, Scale, channel_scale, no_scale, stack
+from gipkg.learning.views import Layout, Scale, fit_scale, stack
 
 
 def train_and_predict(
@@ -75,7 +75,7 @@ def train_and_predict(
     layout = Layout(network.margin, permutation(size, seed) if training.shuffle_pixels else None)
     with reproducible(chosen, training.threads):
         views = stack(images, train_ids, layout)
-        scale = channel_scale(views) if training.scaling == "channel" else no_scale(views)
+        scale = fit_scale(views, jointly=training.scaling == "joint")
         for shape in views:
             shape.copy_(scale(shape))
         torch.manual_seed(seed)

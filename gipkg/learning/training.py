@@ -139,7 +139,7 @@ def _descend(optimiser: Optimizer, loss: Tensor, where: str) -> None:
     """Take one step down the gradient of a finite loss."""
     if not torch.isfinite(loss):
         raise LearningError(
-            f"training diverged at {where}: lower learning_rate, or set scaling to 'channel'"
+            f"training diverged at {where}: lower learning_rate; are all channels finite?"
         )
     optimiser.zero_grad()
     loss.backward()

@@ -42,7 +42,7 @@ class Scale:
 
     Attributes
     ----------
-    mean, deviation : (C,) float64 tensor
+    mean, deviation : (C,) or (1,) float64 tensor
         Subtracted from the channels, then divided by.
     """
 
@@ -64,16 +64,16 @@ def stack(images: Mapping[str, NDArray[np.float32]], ids: Sequence[str], layout:
     return views
 
 
-def channel_scale(views: Tensor) -> Scale:
-    """Give every channel of (n, V, H, W, C) views mean 0 and deviation 1; a constant one 0."""
-    moments = [torch.var_mean(shape.double(), dim=(0, 1, 2), correction=0) for shape in views]
-    variances, means = map(torch.stack, zip(*moments, strict=True))
+def fit_scale(views: Tensor, jointly: bool) -> Scale:
+    """Give every channel of (n, V, H, W, C) views mean 0 and deviation 1; a constant one 0.
+
+    Jointly, all channels are taken for one and keep their proportions.
+    """
+    groups = views.reshape(len(views), -1, 1 if jointly else views.shape[-1])
+    # Filled in place: small results kept one by one would fragment the memory of the large ones.
+    means, variances = torch.zeros((2, len(views), groups.shape[-1]), dtype=torch.float64)
+    for i, shape in enumerate(groups):
+        variances[i], means[i] = torch.var_mean(shape.double(), dim=0, correction=0)
     # Variance within the shapes plus variance between them, all shapes being of one size.
     deviation = (variances.mean(0) + means.var(0, correction=0)).sqrt()
     return Scale(means.mean(0), torch.where(deviation > 0, deviation, 1.0))
-
-
-def no_scale(views: Tensor) -> Scale:
-    """Leave the channels of (..., C) views as they are."""
-    channels = views.shape[-1]
-    return Scale(torch.zeros(channels).double(), torch.ones(channels).double())

@@ -1,10 +1,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import torch
 
 from gipkg.images import pad
-from gipkg.learning.views import Layout, channel_scale, no_scale, stack
+from gipkg.learning.views import Layout, fit_scale, stack
 
 
 def images(shapes: int = 5) -> dict[str, np.ndarray]:
@@ -26,19 +27,25 @@ def test_views_are_the_padded_images_with_channels_last() -> None:
 
 def test_channels_of_any_scale_get_mean_0_and_deviation_1() -> None:
     views = stack(images(), ["s0", "s1", "s2"], Layout(margin=1))
-    scaled = channel_scale(views)(views).double()
+    scaled = fit_scale(views, jointly=False)(views).double()
     np.testing.assert_allclose(scaled.mean((0, 1, 2, 3)), np.zeros(3), atol=1e-6)
     np.testing.assert_allclose(scaled.std((0, 1, 2, 3), correction=0), np.ones(3), rtol=1e-6)
 
 
 def test_a_constant_channel_becomes_zero() -> None:
     views = torch.full((2, 3, 4, 4, 1), 7.0)
-    assert (channel_scale(views)(views) == 0).all()
+    assert (fit_scale(views, jointly=False)(views) == 0).all()
 
 
-def test_without_scaling_channels_stay_as_they_are() -> None:
-    views = stack(images(), ["s0"], Layout(margin=0))
-    assert torch.equal(no_scale(views)(views), views)
+def test_jointly_scaled_channels_keep_their_proportions() -> None:
+    units = np.array([1.0, 50.0], np.float32)[:, None, None]
+    raw = {i: views[:, 1:2] * units for i, views in images().items()}
+    views = stack(raw, ["s0", "s4"], Layout(margin=1))
+    scaled = fit_scale(views, jointly=True)(views).double()
+    assert scaled.mean().item() == pytest.approx(0, abs=1e-6)
+    assert scaled.std(correction=0).item() == pytest.approx(1, rel=1e-6)
+    first, second = scaled.std((0, 1, 2, 3))
+    assert second / first == pytest.approx(50, rel=1e-4)
 
 
 def test_a_shuffled_layout_keeps_the_values_and_moves_all_images_alike() -> None:
