@@ -82,6 +82,13 @@ def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None
     assert "results/evaluation/articulated" not in done.stdout
 
 
+def test_the_variant_as_in_the_paper_can_be_chosen(tmp_path: Path) -> None:
+    column = {**LEARNED, "descriptors": ["hks-raw"], "network": "shallow-2016"}
+    done = Workdir(tmp_path).run("--dry-run", config={"columns": [{"column": "2016", **column}]})
+    assert done.returncode == 0, done.stdout
+    assert "results/images/tiny/authalic/hks-raw/0.npz" in done.stdout
+
+
 def test_every_key_is_explained() -> None:
     schema = yaml.safe_load((REPOSITORY / "workflow/schemas/config.schema.yaml").read_text())
     text = (REPOSITORY / "config/README.md").read_text()
