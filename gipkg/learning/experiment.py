@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from torch import nn
 
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.device import choose_device, reproducible
@@ -81,8 +80,7 @@ def train_and_predict(
         torch.manual_seed(seed)
         model = ShallowNetwork(network, views.shape[-1], views.shape[-2], len(classes)).to(chosen)
         train(model, views, targets, training, seed, checkpoint)
-        pooled = [pool_views(model, images[i], layout, scale) for i in test_ids]
-    scores, embeddings = (np.stack(parts) for parts in zip(*pooled, strict=True))
+        scores, embeddings = predict(model, images, test_ids, layout, scale)
     return Prediction(tuple(test_ids), classes, scores, embeddings)
 
 
@@ -92,12 +90,23 @@ def permutation(size: int, seed: int) -> NDArray[np.int64]:
 
 
 @torch.inference_mode()
-def pool_views(
-    model: nn.Module, images: NDArray[np.float32], layout: Layout, scale: Scale
+def predict(
+    model: ShallowNetwork,
+    images: Mapping[str, NDArray[np.float32]],
+    ids: Sequence[str],
+    layout: Layout,
+    scale: Scale,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Average softmax scores (k,) and signatures (features,) over the views of one shape."""
+    """Average softmax scores (n, k) and signatures (n, features) over the views of each shape."""
     model.eval()
-    device = next(model.parameters()).device
-    views = scale(torch.from_numpy(layout(images))).permute(0, 3, 1, 2).to(device)
-    scores, signatures = model(views)
-    return scores.softmax(1).mean(0).cpu().numpy(), signatures.mean(0).cpu().numpy()
+    weights = model.classifier.weight
+    # Filled in place: small results kept one by one would fragment the memory of the large ones.
+    pooled_scores, pooled_signatures = (
+        np.zeros((len(ids), width), np.float32) for width in weights.shape
+    )
+    for i, shape_id in enumerate(ids):
+        views = scale(torch.from_numpy(layout(images[shape_id]))).permute(0, 3, 1, 2)
+        scores, signatures = model(views.to(weights.device))
+        pooled_scores[i] = scores.softmax(1).mean(0).cpu()
+        pooled_signatures[i] = signatures.mean(0).cpu()
+    return pooled_scores, pooled_signatures
