@@ -1,1 +1,1 @@
-"""TODO."""
+"""Mesh to one representation a shape, and the classifier that goes with it."""

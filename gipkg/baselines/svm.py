@@ -42,8 +42,8 @@ def classify(
     Returns
     -------
     Prediction
-        Scores are distances to the separating planes, one class against the others; embeddings
-        are the representations as they are, which no training touches.
+        Scores are the votes of the machines of all pairs of classes, with their confidence;
+        embeddings are the representations as they are, which no training touches.
     """
     from sklearn.model_selection import GridSearchCV, StratifiedKFold
     from sklearn.pipeline import make_pipeline

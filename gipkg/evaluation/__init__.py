@@ -1,1 +1,1 @@
-"""TODO."""
+"""Predictions and maps to figures: accuracy, retrieval, distortion."""
