@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
 from gipkg.surfaces.halfedges import twins
 
 
@@ -53,7 +53,7 @@ REACH = 1e-9
 """Radians by which round-off may put a direction outside all faces around it."""
 
 
-@njit(cache=True)
+@compiled
 def _locate(sphere, faces, neighbours, directions, width):  # type: ignore[no-untyped-def]
     count = len(directions)
     face = np.zeros(count, np.int32)
@@ -74,7 +74,7 @@ def _locate(sphere, faces, neighbours, directions, width):  # type: ignore[no-un
     return face, weights, -1
 
 
-@njit(cache=True)
+@compiled
 def _walk(sphere, faces, neighbours, d, face, weights):  # type: ignore[no-untyped-def]
     """Walk to the face that contains `d`; -1 if the walk does not arrive."""
     for _ in range(len(faces)):
@@ -90,7 +90,7 @@ def _walk(sphere, faces, neighbours, d, face, weights):  # type: ignore[no-untyp
     return -1
 
 
-@njit(cache=True)
+@compiled
 def _search(sphere, faces, d, weights):  # type: ignore[no-untyped-def]
     """Find the face whose nearest point by clipped weights is closest; -1 beyond reach."""
     best = -1
@@ -113,7 +113,7 @@ def _search(sphere, faces, d, weights):  # type: ignore[no-untyped-def]
     return best
 
 
-@njit(cache=True)
+@compiled
 def _side(sphere, i, j, d):  # type: ignore[no-untyped-def]
     """Return det[p_i, p_j, d], positive where `d` is to the left of the edge from i to j.
 
@@ -125,13 +125,13 @@ def _side(sphere, i, j, d):  # type: ignore[no-untyped-def]
     return _side_ordered(sphere[i], sphere[j], d)
 
 
-@njit(cache=True)
+@compiled
 def _side_ordered(p, q, d):  # type: ignore[no-untyped-def]
     x0, x1, x2 = p[0] - d[0], p[1] - d[1], p[2] - d[2]
     y0, y1, y2 = q[0] - d[0], q[1] - d[1], q[2] - d[2]
     return d[0] * (x1 * y2 - x2 * y1) + d[1] * (x2 * y0 - x0 * y2) + d[2] * (x0 * y1 - x1 * y0)
 
 
-@njit(cache=True)
+@compiled
 def _turns_left(sphere, a, b, c):  # type: ignore[no-untyped-def]
     return _side_ordered(sphere[b], sphere[c], sphere[a]) > 0

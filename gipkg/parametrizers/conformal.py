@@ -31,7 +31,7 @@ class Conformal(Parametrizer):
     )
 
     area_weight: float = Field(
-        5e-3,
+        2e-3,
         gt=0,
         le=1,
         description="weight of areas against angles; below 1e-3 thin limbs leave double precision",

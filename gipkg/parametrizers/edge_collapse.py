@@ -7,22 +7,22 @@ removes untouched, so the same arrays tell how to put them back.
 
 from __future__ import annotations
 
-from numba import njit
+from gipkg.compilation import compiled
 
 
-@njit(cache=True, inline="always")
+@compiled
 def following(h: int) -> int:
     """Next half-edge of the same face."""
     return h - 2 if h % 3 == 2 else h + 1
 
 
-@njit(cache=True, inline="always")
+@compiled
 def preceding(h: int) -> int:
     """Previous half-edge of the same face."""
     return h + 2 if h % 3 == 0 else h - 1
 
 
-@njit(cache=True)
+@compiled
 def gather_ring(twin, origin, start, ring, spokes):  # type: ignore[no-untyped-def]
     """Write the neighbours of a vertex in counterclockwise order; return their number.
 
@@ -40,7 +40,7 @@ def gather_ring(twin, origin, start, ring, spokes):  # type: ignore[no-untyped-d
             return degree
 
 
-@njit(cache=True)
+@compiled
 def collapse(twin, origin, outgoing, spokes, degree):  # type: ignore[no-untyped-def]
     """Merge a vertex into the end of ``spokes[0]``, given its gathered ring.
 
@@ -64,7 +64,7 @@ def collapse(twin, origin, outgoing, spokes, degree):  # type: ignore[no-untyped
     outgoing[origin[inner]] = inner
 
 
-@njit(cache=True)
+@compiled
 def split(twin, origin, outgoing, vertex, first):  # type: ignore[no-untyped-def]
     """Undo the collapse of `vertex` along half-edge `first`; collapses are undone in reverse."""
     into = origin[following(first)]

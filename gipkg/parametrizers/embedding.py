@@ -8,9 +8,9 @@ faces carry the area they stand for, so that the embedding is close to authalic 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
 from gipkg.errors import ParametrizationError
 from gipkg.parametrizers.edge_collapse import gather_ring, split
 from gipkg.parametrizers.hierarchy import Hierarchy, coarsen
@@ -80,7 +80,7 @@ def _tetrahedron(hierarchy: Hierarchy) -> NDArray[np.float64]:
     return corners[: len(names)]
 
 
-@njit(cache=True)
+@compiled
 def _refine(  # type: ignore[no-untyped-def]
     sphere, twin, origin, outgoing, areas, vertices, spokes, levels, offsets, star_areas, shape,
     sweeps,
@@ -119,7 +119,7 @@ def _refine(  # type: ignore[no-untyped-def]
     return -1
 
 
-@njit(cache=True)
+@compiled
 def _sweep(  # type: ignore[no-untyped-def]
     sphere, twin, origin, outgoing, areas, alive, ring, star, points, targets, shape
 ):
@@ -132,7 +132,7 @@ def _sweep(  # type: ignore[no-untyped-def]
         descend(sphere[v], points, targets, degree, shape, 2)
 
 
-@njit(cache=True)
+@compiled
 def _insert(p, ring, targets, degree, shape):  # type: ignore[no-untyped-def]
     """Place a new vertex inside its star, of which ``ring[0]`` sees every edge.
 
@@ -165,7 +165,7 @@ def _insert(p, ring, targets, degree, shape):  # type: ignore[no-untyped-def]
     return True
 
 
-@njit(cache=True)
+@compiled
 def _bisector(ring, degree):  # type: ignore[no-untyped-def]
     """Return the unit tangent at ``ring[0]`` halfway between its two edges in the ring."""
     u = ring[0]

@@ -1,11 +1,11 @@
 """The energy of a whole spherical map, its gradient and a positive semidefinite Hessian.
 
-Every face f contributes ``W (log(a / A))² + shape * A (2 D / det - 1)``, where `a` is its
-signed spherical area, `A` the area that it should have, `D` the Dirichlet energy of its map from
-the mesh to the flat triangle of its corners and ``det`` their triple product. The flat triangle
-lies at distance h <= 1 from the centre and has the area ``det / 2h <= D``, so that ``2 D / det``
-is at least 1, is the conformal distortion (MIPS: Hormann & Greiner 2000) of small triangles, and
-is infinite when a face collapses or grows to a hemisphere.
+Every face f contributes ``W φ(a / A) + shape * A (2 D / det - 1)``: `a` is its signed spherical
+area, `A` the area that it should have, `φ` the penalty of :mod:`~gipkg.parametrizers.area_penalty`,
+`D` the Dirichlet energy of its map from the mesh to the flat triangle of its corners and ``det``
+their triple product. The flat triangle lies at distance h <= 1 from the centre and has the area
+``det / 2h <= D``, so that ``2 D / det`` is at least 1, is the conformal distortion (MIPS: Hormann &
+Greiner 2000) of small triangles, and is infinite when a face collapses or grows to a hemisphere.
 """
 
 from __future__ import annotations
@@ -13,8 +13,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from gipkg.compilation import compiled
+from gipkg.parametrizers.area_penalty import area_penalty, area_penalty_derivatives
 
 _FULL_TURN = 1e-6
 """Allowed round-off of the total area; the next degree is 4π away."""
@@ -30,7 +32,7 @@ class MapEnergy:
     targets : (F,) float64 array
         Areas that the faces should have, summing to 4π.
     weights : (F,) float64 array
-        Weights W of the area residuals.
+        Weights W of the area penalties.
     cotangents : (F, 3) float64 array
         Of the mesh's angles; column k belongs to the corner opposite the edge (k + 1, k + 2).
     shape : float
@@ -54,7 +56,7 @@ class MapEnergy:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Gradient and Hessian blocks in the tangent coordinates of every vertex.
 
-        The Hessian is Gauss-Newton in the area residual, keeps the convex part of the
+        The Hessian is Gauss-Newton in the area penalty, keeps the convex part of the
         conformal term and adds `damping` times the Dirichlet metric of the current triangles.
 
         Parameters
@@ -82,7 +84,7 @@ class MapEnergy:
         )
 
 
-@njit(cache=True)
+@compiled
 def _value(sphere, faces, targets, weights, cotangents, shape):  # type: ignore[no-untyped-def]
     energy, total = 0.0, 0.0
     for f in range(len(faces)):
@@ -99,15 +101,15 @@ def _value(sphere, faces, targets, weights, cotangents, shape):  # type: ignore[
         # Chords |q - p|² of unit vectors give the cosines 1 - |q - p|² / 2 accurately.
         area = 2 * np.arctan2(triple, 4 - 0.5 * (pq + qr + rp))
         dirichlet = cotangents[f, 0] * qr + cotangents[f, 1] * rp + cotangents[f, 2] * pq
-        ratio = np.log(area / targets[f])
-        energy += weights[f] * ratio * ratio + shape * targets[f] * (0.5 * dirichlet / triple - 1)
+        energy += weights[f] * area_penalty(area / targets[f])
+        energy += shape * targets[f] * (0.5 * dirichlet / triple - 1)
         total += area
     if abs(total - 4 * np.pi) > _FULL_TURN:
         return np.inf
     return energy
 
 
-@njit(cache=True)
+@compiled
 def _derivatives(  # type: ignore[no-untyped-def]
     sphere, basis, faces, targets, weights, cotangents, shape, damping
 ):
@@ -163,15 +165,16 @@ def _derivatives(  # type: ignore[no-untyped-def]
             stiffness[j, i] = stiffness[i, j]
         for k in range(3):
             stiffness[k, k] = -stiffness[k, (k + 1) % 3] - stiffness[k, (k + 2) % 3]
-        residual = 2 * weights[f] * np.log(area / targets[f]) / area
-        area_bend = 2 * weights[f] / (area * area)
+        slope, curvature = area_penalty_derivatives(area / targets[f])
+        slope *= weights[f] / targets[f]
+        curvature *= weights[f] / targets[f] ** 2
         mixed = conformal / triple
         triple_bend = 2 * mixed * dirichlet / triple
         for k in range(3):
             for d in range(2):
                 m = 2 * k + d
                 gradient[2 * faces[f, k] + d] += (
-                    residual * area_slope[m]
+                    slope * area_slope[m]
                     + conformal * dirichlet_slope[m]
                     - mixed * dirichlet * triple_slope[m]
                 )
@@ -182,7 +185,7 @@ def _derivatives(  # type: ignore[no-untyped-def]
                         for c in range(3):
                             dot += frame[k, d, c] * frame[i, e, c]
                         blocks[f, m, n] = (
-                            area_bend * area_slope[m] * area_slope[n]
+                            curvature * area_slope[m] * area_slope[n]
                             + triple_bend * triple_slope[m] * triple_slope[n]
                             - mixed * triple_slope[m] * dirichlet_slope[n]
                             - mixed * dirichlet_slope[m] * triple_slope[n]

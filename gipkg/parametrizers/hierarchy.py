@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
 from gipkg.parametrizers.edge_collapse import collapse, gather_ring
 from gipkg.surfaces.halfedges import twins
 
@@ -88,7 +88,7 @@ def coarsen(
     )
 
 
-@njit(cache=True)
+@compiled
 def _collapse_all(points, twin, origin, outgoing, areas, present):  # type: ignore[no-untyped-def]
     count = len(points)
     alive = np.ones(count, np.bool_)
@@ -153,7 +153,7 @@ def _collapse_all(points, twin, origin, outgoing, areas, present):  # type: igno
     return removed, removed_spokes, np.array(levels), offsets, star_areas[: offsets[done]]
 
 
-@njit(cache=True)
+@compiled
 def _best_target(  # type: ignore[no-untyped-def]
     points, twin, origin, outgoing, degrees, ring, degree, mark, v, other, other_spokes
 ):
@@ -181,7 +181,7 @@ def _best_target(  # type: ignore[no-untyped-def]
     return best
 
 
-@njit(cache=True)
+@compiled
 def _hand_over_areas(areas, spokes, degree, record):  # type: ignore[no-untyped-def]
     """Share the area of the two vanishing faces among the rest of the star; record the old."""
     for k in range(degree):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from cholespy import CholeskySolverD, MatrixType
-from numba import njit
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
 from gipkg.parametrizers.energy import MapEnergy
 from gipkg.parametrizers.tangent import tangent_basis
 
@@ -117,7 +117,7 @@ class _BlockSystem:
         return solution * scale
 
 
-@njit(cache=True)
+@compiled
 def _scatter(values, slots, count):  # type: ignore[no-untyped-def]
     total = np.zeros(count)
     for i in range(len(values)):

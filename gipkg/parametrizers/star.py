@@ -8,7 +8,9 @@ equilateral triangle, since the coarse triangles themselves say little about the
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from gipkg.compilation import compiled
+from gipkg.parametrizers.area_penalty import area_penalty, area_penalty_derivatives
 
 _EQUILATERAL = 1 / (2 * np.sqrt(3.0))
 """Squared edge lengths -> twice the Dirichlet energy of the map from an equilateral triangle."""
@@ -18,7 +20,7 @@ _TURN = 1e-3
 """A star's total area is fixed by its ring up to full turns of 4π; allowed round-off."""
 
 
-@njit(cache=True)
+@compiled
 def star_energy(p, ring, targets, degree, shape):  # type: ignore[no-untyped-def]
     """Energy of a vertex at `p` (3,) inside its `ring` (degree, 3); also its total area.
 
@@ -38,18 +40,17 @@ def star_energy(p, ring, targets, degree, shape):  # type: ignore[no-untyped-def
         pb = bx * bx + by * by + bz * bz
         ab = (ax - bx) ** 2 + (ay - by) ** 2 + (az - bz) ** 2
         area = 2 * np.arctan2(triple, 4 - 0.5 * (pa + pb + ab))
-        ratio = np.log(area / targets[i])
         conformal = _EQUILATERAL * (pa + pb + ab) / triple
-        energy += targets[i] * (ratio * ratio + shape * (conformal - 1))
+        energy += targets[i] * (area_penalty(area / targets[i]) + shape * (conformal - 1))
         total += area
     return energy, total
 
 
-@njit(cache=True)
+@compiled
 def star_step(p, ring, targets, degree, shape, step):  # type: ignore[no-untyped-def]
     """Write a descent step in the tangent plane of `p`; return the predicted slope.
 
-    Gauss-Newton in the area residuals and in the quadratic over linear conformal term.
+    Gauss-Newton in the area penalty and in the quadratic over linear conformal term.
     """
     # Tangent basis.
     basis = np.zeros((2, 3))
@@ -103,13 +104,13 @@ def star_step(p, ring, targets, degree, shape, step):  # type: ignore[no-untyped
             d_u += dd * basis[0, c]
             d_v += dd * basis[1, c]
         weight = targets[i]
-        residual = 2 * weight * np.log(area / weight) / area
-        bend = 2 * weight / (area * area)
+        slope, curvature = area_penalty_derivatives(area / weight)
+        bend = curvature / weight
         conformal = weight * shape / triple
         mixed = conformal / triple
         turn = 2 * mixed * dirichlet / triple
-        g0 += residual * a_u + conformal * d_u - mixed * dirichlet * t_u
-        g1 += residual * a_v + conformal * d_v - mixed * dirichlet * t_v
+        g0 += slope * a_u + conformal * d_u - mixed * dirichlet * t_u
+        g1 += slope * a_v + conformal * d_v - mixed * dirichlet * t_v
         stiff = 4 * _EQUILATERAL * conformal
         h00 += bend * a_u * a_u + turn * t_u * t_u + stiff - 2 * mixed * t_u * d_u
         h01 += bend * a_u * a_v + turn * t_u * t_v - mixed * (t_u * d_v + t_v * d_u)
@@ -124,7 +125,7 @@ def star_step(p, ring, targets, degree, shape, step):  # type: ignore[no-untyped
     return g0 * s0 + g1 * s1
 
 
-@njit(cache=True)
+@compiled
 def descend(p, ring, targets, degree, shape, iterations):  # type: ignore[no-untyped-def]
     """Move `p` (3,) in place down the energy of its star, never through a flip.
 

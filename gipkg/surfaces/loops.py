@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import heapq
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
 from gipkg.surfaces import halfedges
 
 ALL_BASES = 1500
@@ -76,7 +76,7 @@ def _adjacency(ends: Ints, size: int) -> tuple[Ints, Ints]:
     return start, at_vertex
 
 
-@numba.njit(cache=True)
+@compiled
 def _best_over_bases(
     bases: Ints, bound: float, ends: Ints, sides: Ints, length: Floats, start: Ints, at_vertex: Ints
 ) -> tuple[Ints, float]:
@@ -98,7 +98,7 @@ def _best_over_bases(
     return best, bound
 
 
-@numba.njit(cache=True)
+@compiled
 def _grow_tree(
     base: int,
     reach: float,
@@ -129,7 +129,7 @@ def _grow_tree(
     return reached
 
 
-@numba.njit(cache=True)
+@compiled
 def _closing_edges(
     bound: float, ends: Ints, sides: Ints, length: Floats, distance: Floats, parent: Ints
 ) -> list[int]:
@@ -153,7 +153,7 @@ def _closing_edges(
     ]
 
 
-@numba.njit(cache=True)
+@compiled
 def _join(root: Ints, one: int, two: int) -> bool:
     """Join two sets of a union-find forest; False where they were one already."""
     while root[one] != one:
@@ -168,7 +168,7 @@ def _join(root: Ints, one: int, two: int) -> bool:
     return True
 
 
-@numba.njit(cache=True)
+@compiled
 def _loop_of(edge: int, ends: Ints, parent: Ints) -> Ints:
     """Return the loop's vertices from the two tree paths, without the way they share."""
     left, right = [ends[edge, 0]], [ends[edge, 1]]
@@ -182,7 +182,7 @@ def _loop_of(edge: int, ends: Ints, parent: Ints) -> Ints:
     return np.array(left + right[:-1][::-1], np.int64)
 
 
-@numba.njit(cache=True)
+@compiled
 def _loop_length(edge: int, loop: Ints, ends: Ints, length: Floats, distance: Floats) -> float:
     """Length of the closing edge and of both paths up to where they meet."""
     a, b = ends[edge]

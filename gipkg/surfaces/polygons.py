@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from gipkg.compilation import compiled
 
 MOST_CORNERS = 1000
 """The dynamic programme takes time cubic in the number of corners; no real face comes near."""
@@ -52,7 +53,7 @@ def triangulate_polygons(
     return np.concatenate(triangles)
 
 
-@numba.njit(cache=True)
+@compiled
 def least_area_triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
     """Triangulate a closed loop of (n, 3) points by (n - 2, 3) indices, of least total area."""
     n = len(points)
@@ -82,7 +83,7 @@ def least_area_triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
     return triangles
 
 
-@numba.njit(cache=True)
+@compiled
 def _triangle_cost(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> float:
     """Area, and a little for a bad shape: at most a thousandth of the squared edges."""
     ab, bc, ca = b - a, c - b, a - c
