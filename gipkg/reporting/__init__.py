@@ -1,1 +1,1 @@
-"""TODO."""
+"""Figures to the paper's tables, their notes and their provenance."""
