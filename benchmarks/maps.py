@@ -2,8 +2,8 @@
 
 Usage: python benchmarks/maps.py [RESULTS]
 
-Signed spherical areas are computed afresh from the stored coordinates of `RESULTS` (by default
-``results``), which is what the figures of the maps in the changelog rest on.
+Signed spherical areas are computed afresh from the coordinates stored in `RESULTS` (by default
+``results``).
 """
 
 from __future__ import annotations

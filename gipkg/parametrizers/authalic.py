@@ -39,7 +39,7 @@ class Authalic(Parametrizer):
     )
     exact_areas: bool = Field(
         False,
-        description="end on exact areas of all vertices; those of faces get up to thrice worse",
+        description="end on exact areas of all vertices; those of faces get worse, up to fourfold",
     )
 
     def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
