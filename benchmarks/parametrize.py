@@ -17,8 +17,8 @@ import numpy as np
 import trimesh
 
 import gipkg
-from gipkg.parametrizers.embedding import embed
-from gipkg.parametrizers.optimal_map import triangle_shapes
+from gipkg.parametrizers.hierarchy.embedding import embed
+from gipkg.parametrizers.variational.optimal_map import triangle_shapes
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 

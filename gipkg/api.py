@@ -9,7 +9,7 @@ Only a :class:`Dataset` reads files, and only under the data root it is given.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -67,11 +67,39 @@ class SphericalMap:
 
 
 @dataclass(frozen=True, slots=True)
+class Iteration:
+    """What an iterative parametrizer tells its callback.
+
+    Attributes
+    ----------
+    number : int
+        0 for the start, then one more each time.
+    sphere : (V, 3) float64 array
+        The map reached; copy it to keep it.
+    objective : float
+        What the method lowers, in its own units.
+    step : float
+        Length of the step that led here, as a fraction of the step proposed; 0 at the start.
+    """
+
+    number: int
+    sphere: NDArray[np.float64]
+    objective: float
+    step: float
+
+
+Callback = Callable[[Iteration], None]
+"""Called at the start and after every iteration of a parametrizer."""
+
+
+@dataclass(frozen=True, slots=True)
 class ParametrizerTags:
     """What a parametrizer promises; the conformance suite checks what is promised."""
 
     guarantees: frozenset[Literal["bijective", "area", "angle"]] = frozenset()
     deterministic: bool = True
+    iterative: bool = False
+    """Calls its callback; the others ignore it."""
 
 
 class Parametrizer(Plugin):
@@ -80,13 +108,18 @@ class Parametrizer(Plugin):
     tags: ClassVar[ParametrizerTags] = ParametrizerTags()
 
     @abstractmethod
-    def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+    def parametrize(
+        self, mesh: trimesh.Trimesh, callback: Callback | None = None
+    ) -> NDArray[np.float64]:
         """Map the vertices of a closed, oriented genus-0 mesh to the unit sphere.
 
         Parameters
         ----------
         mesh : trimesh.Trimesh
             V vertices; never changed.
+        callback : callable, optional
+            Told every iteration by a method tagged ``iterative``; an exception of it ends the
+            work and is passed on.
 
         Returns
         -------

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.api import SphericalMap
-from gipkg.parametrizers.spherical_areas import flipped_faces, signed_spherical_areas
+from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
 from gipkg.surfaces.validation import face_areas
 
 

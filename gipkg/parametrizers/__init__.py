@@ -1,9 +1,8 @@
 """Parametrizers: closed genus-0 mesh to unit sphere (paper, Section 3).
 
-The way of the built-in maps: :mod:`.hierarchy` coarsens the mesh to a tetrahedron,
-:mod:`.embedding` refines that on the sphere without a flip, :mod:`.newton` descends the
-distortion :mod:`.energy` from there, :mod:`.exact_areas` may remove what is left of it at the
-vertices, and :mod:`.spherical_areas` proves the result bijective.
+A module here is a method that has a name. What they are built from: :mod:`.hierarchy`, the
+bijective start of all of them; :mod:`.variational`, the maps of least distortion; and
+:mod:`.sphere`, the geometry of spherical triangles, which also proves a map bijective.
 """
 
 from __future__ import annotations
@@ -13,10 +12,16 @@ from typing import Any
 import trimesh
 
 from gipkg import registry
-from gipkg.api import SphericalMap
+from gipkg.api import Callback, SphericalMap
 
 
-def parametrize(mesh: trimesh.Trimesh, method: str = "authalic", **parameters: Any) -> SphericalMap:
+def parametrize(
+    mesh: trimesh.Trimesh,
+    method: str = "authalic",
+    *,
+    callback: Callback | None = None,
+    **parameters: Any,
+) -> SphericalMap:
     """Map a closed genus-0 mesh to the unit sphere.
 
     Parameters
@@ -25,6 +30,8 @@ def parametrize(mesh: trimesh.Trimesh, method: str = "authalic", **parameters: A
         Closed, oriented, of one component and of genus 0 (see :func:`gipkg.prepare`).
     method : str
         Name of a parametrizer (``gipkg plugins list --kind parametrizer``).
+    callback : callable, optional
+        Told every :class:`~gipkg.api.Iteration` of an iterative method.
     **parameters
         Of that parametrizer (``gipkg plugins show NAME``).
 
@@ -43,4 +50,4 @@ def parametrize(mesh: trimesh.Trimesh, method: str = "authalic", **parameters: A
         The method could not keep what it guarantees.
     """
     plugin = registry.create("parametrizer", method, parameters)
-    return SphericalMap(mesh, plugin.parametrize(mesh))
+    return SphericalMap(mesh, plugin.parametrize(mesh, callback))

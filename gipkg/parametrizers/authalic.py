@@ -9,7 +9,7 @@ import trimesh
 from numpy.typing import NDArray
 from pydantic import Field
 
-from gipkg.api import Parametrizer, ParametrizerTags
+from gipkg.api import Callback, Parametrizer, ParametrizerTags
 
 
 class Authalic(Parametrizer):
@@ -25,7 +25,9 @@ class Authalic(Parametrizer):
         "Sinha, Bai & Ramani, Deep Learning 3D Shape Surfaces Using Geometry Images, ECCV 2016; "
         "start after Praun & Hoppe, Spherical Parametrization and Remeshing, SIGGRAPH 2003"
     )
-    tags: ClassVar[ParametrizerTags] = ParametrizerTags(guarantees=frozenset({"bijective", "area"}))
+    tags: ClassVar[ParametrizerTags] = ParametrizerTags(
+        guarantees=frozenset({"bijective", "area"}), iterative=True
+    )
 
     shape_weight: float = Field(
         1e-3,
@@ -42,9 +44,11 @@ class Authalic(Parametrizer):
         description="end on exact areas of all vertices; those of faces get worse, up to fourfold",
     )
 
-    def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+    def parametrize(
+        self, mesh: trimesh.Trimesh, callback: Callback | None = None
+    ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
-        from gipkg.parametrizers.optimal_map import least_distorted_map
+        from gipkg.parametrizers.variational.optimal_map import least_distorted_map
 
         return least_distorted_map(
             mesh,
@@ -52,5 +56,6 @@ class Authalic(Parametrizer):
             shape_weight=self.shape_weight,
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,
+            callback=callback,
             exact_areas=self.exact_areas,
         )

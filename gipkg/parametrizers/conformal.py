@@ -9,7 +9,7 @@ import trimesh
 from numpy.typing import NDArray
 from pydantic import Field
 
-from gipkg.api import Parametrizer, ParametrizerTags
+from gipkg.api import Callback, Parametrizer, ParametrizerTags
 
 
 class Conformal(Parametrizer):
@@ -27,7 +27,7 @@ class Conformal(Parametrizer):
         "to brain surface mapping, IEEE TMI 2004; energy after Hormann & Greiner, MIPS, 2000"
     )
     tags: ClassVar[ParametrizerTags] = ParametrizerTags(
-        guarantees=frozenset({"bijective", "angle"})
+        guarantees=frozenset({"bijective", "angle"}), iterative=True
     )
 
     area_weight: float = Field(
@@ -41,9 +41,11 @@ class Conformal(Parametrizer):
         1e-3, ge=0, lt=1, description="stop when a step lowers the energy by less than this share"
     )
 
-    def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+    def parametrize(
+        self, mesh: trimesh.Trimesh, callback: Callback | None = None
+    ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
-        from gipkg.parametrizers.optimal_map import least_distorted_map
+        from gipkg.parametrizers.variational.optimal_map import least_distorted_map
 
         return least_distorted_map(
             mesh,
@@ -51,4 +53,5 @@ class Conformal(Parametrizer):
             shape_weight=1.0,
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,
+            callback=callback,
         )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gipkg.api import Parametrizer
 from gipkg.errors import UnsupportedMesh
-from gipkg.parametrizers.spherical_areas import flipped_faces, signed_spherical_areas
+from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
 from gipkg.testing import meshes
 from gipkg.testing.common import add_common_checks
 from gipkg.testing.suite import Suite, require

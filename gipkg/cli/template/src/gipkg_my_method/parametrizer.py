@@ -9,7 +9,7 @@ import trimesh
 from numpy.typing import NDArray
 from pydantic import Field
 
-from gipkg.api import Parametrizer, ParametrizerTags
+from gipkg.api import Callback, Parametrizer, ParametrizerTags
 from gipkg.surfaces.validation import check_genus_zero
 
 
@@ -25,7 +25,9 @@ class MyMethod(Parametrizer):
         "surface", description="mean of the surface, or of the vertices"
     )
 
-    def parametrize(self, mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+    def parametrize(
+        self, mesh: trimesh.Trimesh, callback: Callback | None = None
+    ) -> NDArray[np.float64]:
         """Project the vertices (see :class:`gipkg.api.Parametrizer`)."""
         check_genus_zero(mesh)
         vertices = np.asarray(mesh.vertices)

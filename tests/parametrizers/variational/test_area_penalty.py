@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gipkg.parametrizers.area_penalty import area_penalty, area_penalty_derivatives
+from gipkg.parametrizers.variational.area_penalty import area_penalty, area_penalty_derivatives
 
 RATIOS = st.floats(-12, 12).map(np.exp)
 

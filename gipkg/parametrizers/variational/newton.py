@@ -6,9 +6,10 @@ import numpy as np
 from cholespy import CholeskySolverD, MatrixType
 from numpy.typing import NDArray
 
+from gipkg.api import Callback, Iteration
 from gipkg.compilation import compiled
-from gipkg.parametrizers.energy import MapEnergy
-from gipkg.parametrizers.tangent import tangent_basis
+from gipkg.parametrizers.sphere.tangent import tangent_basis
+from gipkg.parametrizers.variational.energy import MapEnergy
 
 _START_DAMPING = 1e-2
 _LEAST_DAMPING, _MOST_DAMPING = 1e-9, 1e4
@@ -21,6 +22,7 @@ def minimize(
     *,
     max_iterations: int,
     tolerance: float,
+    callback: Callback | None = None,
 ) -> NDArray[np.float64]:
     """Descend from a map without flips to one without flips and of less energy.
 
@@ -36,6 +38,7 @@ def minimize(
     max_iterations : int
     tolerance : float
         Stop when an iteration lowers the energy by less than this fraction.
+    callback : callable, optional
 
     Returns
     -------
@@ -45,7 +48,9 @@ def minimize(
     system = _BlockSystem(energy.faces, len(sphere))
     value = energy.value(sphere)
     damping = _START_DAMPING
-    for _ in range(max_iterations):
+    tell = callback or _ignore
+    tell(Iteration(0, sphere, value, 0.0))
+    for number in range(1, max_iterations + 1):
         basis = tangent_basis(sphere)
         gradient, blocks = energy.derivatives(sphere, basis, damping)
         try:
@@ -62,6 +67,7 @@ def minimize(
             continue
         gain = (value - reached) / abs(value)
         sphere, value = moved, reached
+        tell(Iteration(number, sphere, value, length))
         if gain < tolerance:
             break
         if length >= 0.5:
@@ -69,6 +75,10 @@ def minimize(
         elif length < 0.1:
             damping *= 2
     return sphere
+
+
+def _ignore(_: Iteration) -> None:
+    pass
 
 
 def _search(

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gipkg.parametrizers.spherical_areas import (
+from gipkg.parametrizers.sphere.areas import (
     flipped_faces,
     signed_spherical_areas,
     triple_products,

@@ -1,7 +1,7 @@
 """The energy of a whole spherical map, its gradient and a positive semidefinite Hessian.
 
 Every face f contributes ``W φ(a / A) + shape * A (2 D / det - 1)``: `a` is its signed spherical
-area, `A` the area that it should have, `φ` the penalty of :mod:`~gipkg.parametrizers.area_penalty`,
+area, `A` the area that it should have, `φ` the penalty of :mod:`~gipkg.parametrizers.variational.area_penalty`,
 `D` the Dirichlet energy of its map from the mesh to the flat triangle of its corners and ``det``
 their triple product. The flat triangle lies at distance h <= 1 from the centre and has the area
 ``det / 2h <= D``, so that ``2 D / det`` is at least 1, is the conformal distortion (MIPS: Hormann &
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.area_penalty import area_penalty, area_penalty_derivatives
+from gipkg.parametrizers.variational.area_penalty import area_penalty, area_penalty_derivatives
 
 _FULL_TURN = 1e-6
 """Allowed round-off of the total area; the next degree is 4π away."""

@@ -1,6 +1,6 @@
 """The energy of one vertex's star on the sphere, and the descent that moves the vertex.
 
-It is the energy of :mod:`gipkg.parametrizers.energy` with two simplifications that coarse
+It is the energy of :mod:`gipkg.parametrizers.variational.energy` with two simplifications that coarse
 levels need: a face is weighted by the area it carries, and its shape is held against an
 equilateral triangle, since the coarse triangles themselves say little about the surface.
 """
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.area_penalty import area_penalty, area_penalty_derivatives
+from gipkg.parametrizers.variational.area_penalty import area_penalty, area_penalty_derivatives
 
 _EQUILATERAL = 1 / (2 * np.sqrt(3.0))
 """Squared edge lengths -> twice the Dirichlet energy of the map from an equilateral triangle."""

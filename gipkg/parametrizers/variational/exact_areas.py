@@ -13,9 +13,9 @@ from cholespy import CholeskySolverD, MatrixType
 from numpy.typing import NDArray
 
 from gipkg.errors import ParametrizationError
-from gipkg.parametrizers.energy import MapEnergy
-from gipkg.parametrizers.spherical_areas import signed_spherical_areas, triple_products
-from gipkg.parametrizers.tangent import tangent_basis
+from gipkg.parametrizers.sphere.areas import signed_spherical_areas, triple_products
+from gipkg.parametrizers.sphere.tangent import tangent_basis
+from gipkg.parametrizers.variational.energy import MapEnergy
 
 EXACT = 1e-12
 """Relative error of the vertex areas, root mean square, at which they count as exact."""

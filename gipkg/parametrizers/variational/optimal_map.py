@@ -6,12 +6,13 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from gipkg.api import Callback
 from gipkg.errors import ParametrizationError
-from gipkg.parametrizers.embedding import embed
-from gipkg.parametrizers.energy import MapEnergy
-from gipkg.parametrizers.exact_areas import project_onto_vertex_areas
-from gipkg.parametrizers.newton import minimize
-from gipkg.parametrizers.spherical_areas import flipped_faces, signed_spherical_areas
+from gipkg.parametrizers.hierarchy.embedding import embed
+from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
+from gipkg.parametrizers.variational.energy import MapEnergy
+from gipkg.parametrizers.variational.exact_areas import project_onto_vertex_areas
+from gipkg.parametrizers.variational.newton import minimize
 from gipkg.surfaces.validation import check_genus_zero
 
 
@@ -23,6 +24,7 @@ def least_distorted_map(
     max_iterations: int,
     tolerance: float,
     exact_areas: bool = False,
+    callback: Callback | None = None,
 ) -> NDArray[np.float64]:
     """Find a bijective spherical map of least area and shape distortion.
 
@@ -31,12 +33,14 @@ def least_distorted_map(
     mesh : trimesh.Trimesh
         Closed, oriented, of genus 0, with V vertices.
     area_weight, shape_weight : float
-        Of the two terms of :class:`~gipkg.parametrizers.energy.MapEnergy`.
+        Of the two terms of :class:`~gipkg.parametrizers.variational.energy.MapEnergy`.
     max_iterations : int
     tolerance : float
         Relative decrease of the energy that ends the descent.
     exact_areas : bool
         Project the result onto exact vertex areas.
+    callback : callable, optional
+        Told every iteration of the descent.
 
     Returns
     -------
@@ -59,7 +63,9 @@ def least_distorted_map(
     # Between uniform weights, with which slivers rule, and areas, with which they are ignored.
     weights = area_weight * np.sqrt(targets * targets.mean())
     energy = MapEnergy(faces, targets, weights, cotangents, shape_weight)
-    sphere = minimize(energy, start, max_iterations=max_iterations, tolerance=tolerance)
+    sphere = minimize(
+        energy, start, max_iterations=max_iterations, tolerance=tolerance, callback=callback
+    )
     if exact_areas:
         sphere = project_onto_vertex_areas(energy, sphere)
     _verify(sphere, faces)

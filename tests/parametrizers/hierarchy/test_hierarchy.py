@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from gipkg.parametrizers.edge_collapse import gather_ring, split
-from gipkg.parametrizers.hierarchy import coarsen
+from gipkg.parametrizers.hierarchy.coarsening import coarsen
+from gipkg.parametrizers.hierarchy.edge_collapse import gather_ring, split
 from gipkg.surfaces.halfedges import twins
 from tests.support.shapes import icosphere, needle, urchin
 

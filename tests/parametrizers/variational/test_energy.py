@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from gipkg.parametrizers.energy import MapEnergy
-from gipkg.parametrizers.optimal_map import triangle_shapes
+from gipkg.parametrizers.variational.energy import MapEnergy
+from gipkg.parametrizers.variational.optimal_map import triangle_shapes
 from tests.support.shapes import ellipsoid, icosphere
 
 

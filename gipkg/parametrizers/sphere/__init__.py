@@ -1,0 +1,1 @@
+"""Geometry of maps to the unit sphere: areas, orientation, tangent planes."""

@@ -1,0 +1,1 @@
+"""Maps of least distortion: an energy, its descent, and exact areas at the end."""
