@@ -235,7 +235,8 @@ class Dataset(Plugin):
 
     tags: ClassVar[DatasetTags]
     protocols: ClassVar[Mapping[str, Protocol]]
-    """Name of the row in the paper's table (``SHREC1``) -> how it is split."""
+    """Name of the row in the paper's table (``SHREC1``) -> how it is split. There is none where
+    the shapes are not classified, but mapped."""
 
     @abstractmethod
     def available(self, root: Path) -> bool:

@@ -39,6 +39,8 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
     "dataset": {
         "articulated": "gipkg.datasets.articulated:Articulated",
         "shrec11": "gipkg.datasets.shrec11:Shrec11",
+        "tosca": "gipkg.datasets.tosca:Tosca",
+        "tosca-highres": "gipkg.datasets.tosca:ToscaHighResolution",
     },
 }
 
