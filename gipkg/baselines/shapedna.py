@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from gipkg.api import Baseline, BaselineTags
+from gipkg.api import BaselineTags
+from gipkg.baselines.vectors import VectorBaseline
 from gipkg.errors import UnsupportedMesh
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ ROUND_OFF = 1e-9
 """A second eigenvalue times the area that is no larger stands for a second component."""
 
 
-class ShapeDNA(Baseline):
+class ShapeDNA(VectorBaseline):
     """Logarithms of the first eigenvalues times the surface area, the zero one left out.
 
     Not in the paper; the honest bar, since it needs neither a map nor a network.

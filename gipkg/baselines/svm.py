@@ -16,10 +16,9 @@ FOLDS = 5
 
 
 def classify(
-    representations: Mapping[str, NDArray[np.float64]],
-    labels: Mapping[str, str],
-    train_ids: Sequence[str],
-    test_ids: Sequence[str],
+    vectors: Mapping[str, NDArray[np.float64]],
+    train: Mapping[str, str],
+    test: Sequence[str],
     *,
     seed: int = 0,
 ) -> Prediction:
@@ -31,11 +30,10 @@ def classify(
 
     Parameters
     ----------
-    representations : mapping of shape id to (D,) array
-    labels : mapping of shape id to class
-        For the training part.
-    train_ids, test_ids : sequence of str
-        The two parts.
+    vectors : mapping of shape id to (D,) array
+        For both parts.
+    train : mapping of shape id to class
+    test : sequence of shape ids
     seed : int
         Of the folds.
 
@@ -43,27 +41,27 @@ def classify(
     -------
     Prediction
         Scores are the votes of the machines of all pairs of classes, with their confidence;
-        embeddings are the representations as they are, which no training touches.
+        embeddings are the vectors as they are, which no training touches.
     """
     from sklearn.model_selection import GridSearchCV, StratifiedKFold
     from sklearn.pipeline import make_pipeline
     from sklearn.preprocessing import StandardScaler
     from sklearn.svm import SVC
 
-    known = np.stack([representations[i] for i in train_ids])
-    targets = np.array([labels[i] for i in train_ids])
+    known = np.stack([vectors[i] for i in train])
+    targets = np.array(list(train.values()))
     machine = make_pipeline(StandardScaler(), SVC(kernel="linear", decision_function_shape="ovr"))
     folds = min(FOLDS, *Counter(targets.tolist()).values())
     if folds > 1:
         validation = StratifiedKFold(folds, shuffle=True, random_state=seed)
         machine = GridSearchCV(machine, {"svc__C": REGULARISATION}, cv=validation)
     machine.fit(known, targets)
-    asked = np.stack([representations[i] for i in test_ids])
+    asked = np.stack([vectors[i] for i in test])
     scores = machine.decision_function(asked)
     if scores.ndim == 1:  # two classes have one plane
         scores = np.stack([-scores, scores], axis=1)
     return Prediction(
-        tuple(test_ids),
+        tuple(test),
         tuple(machine.classes_.tolist()),
         scores.astype(np.float32),
         asked.astype(np.float32),

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from gipkg.api import Baseline, BaselineTags
+from gipkg.api import BaselineTags
+from gipkg.baselines.vectors import VectorBaseline
 from gipkg.baselines.zernike_moments import zernike_moments
 from gipkg.errors import UnsupportedMesh
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from gipkg.descriptors.operators import Operators
 
 
-class Zernike(Baseline):
+class Zernike(VectorBaseline):
     """Norms of the 3D Zernike moments of the filled volume over each (n, l).
 
     The solid is centred at its centroid and scaled so that its farthest vertex lies on the unit

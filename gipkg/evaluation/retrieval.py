@@ -1,4 +1,4 @@
-"""Retrieval: every shape queries all the others, ranked by the L2 distance of embeddings.
+"""Retrieval: every shape queries all the others, ranked by their distance from it.
 
 The query itself is left out. Shapes of the query's class are relevant. Shapes at exactly the
 same distance are retrieved together, so that no figure depends on the order of the shapes.
@@ -16,7 +16,7 @@ RECALL_LEVELS = np.linspace(0.0, 1.0, 11)
 """Standard recall levels of the precision-recall curve."""
 
 
-def mean_average_precision(embeddings: ArrayLike, labels: ArrayLike) -> float:
+def mean_average_precision(distances: ArrayLike, labels: ArrayLike) -> float:
     """Mean over the queries of the average precision.
 
     The average precision of a query with R relevant shapes is (1/R) Σ P(s), summed over the
@@ -25,8 +25,8 @@ def mean_average_precision(embeddings: ArrayLike, labels: ArrayLike) -> float:
 
     Parameters
     ----------
-    embeddings : (n, d) array_like
-        Signature of each shape.
+    distances : (n, n) array_like
+        From each query, a row, to every shape; the diagonal is not read.
     labels : (n,) array_like
         Class of each shape.
 
@@ -40,12 +40,12 @@ def mean_average_precision(embeddings: ArrayLike, labels: ArrayLike) -> float:
     ValueError
         The arguments do not fit together, or no class has two shapes.
     """
-    ranking = _rank(embeddings, labels)
+    ranking = _rank(distances, labels)
     hits = (ranking.relevant * ranking.precision).sum(axis=1)
     return float(np.mean(hits / ranking.relevant.sum(axis=1)))
 
 
-def precision_recall(embeddings: ArrayLike, labels: ArrayLike) -> NDArray[np.float64]:
+def precision_recall(distances: ArrayLike, labels: ArrayLike) -> NDArray[np.float64]:
     """Interpolate the precision at the standard recall levels and average it over the queries.
 
     The interpolated precision at a level is the highest precision at that recall or more
@@ -53,7 +53,7 @@ def precision_recall(embeddings: ArrayLike, labels: ArrayLike) -> NDArray[np.flo
 
     Parameters
     ----------
-    embeddings, labels
+    distances, labels
         As in :func:`mean_average_precision`.
 
     Returns
@@ -66,7 +66,7 @@ def precision_recall(embeddings: ArrayLike, labels: ArrayLike) -> NDArray[np.flo
     ValueError
         As in :func:`mean_average_precision`.
     """
-    ranking = _rank(embeddings, labels)
+    ranking = _rank(distances, labels)
     best = np.maximum.accumulate(ranking.precision[:, ::-1], axis=1)[:, ::-1]
     total = ranking.relevant.sum(axis=1, keepdims=True)
     # In whole numbers: a recall of 3/10 must reach the level 0.3.
@@ -93,34 +93,32 @@ class _Ranking:
     precision: NDArray[np.float64]
 
 
-def _rank(embeddings: ArrayLike, labels: ArrayLike) -> _Ranking:
-    from scipy.spatial.distance import cdist
-
-    embeddings = np.asarray(embeddings, dtype=np.float64)
+def _rank(distances: ArrayLike, labels: ArrayLike) -> _Ranking:
+    matrix = np.asarray(distances, dtype=np.float64)
     labels = np.asarray(labels)
-    if embeddings.ndim != 2 or labels.shape != embeddings.shape[:1]:
-        raise ValueError(
-            f"embeddings must be (n, d) and labels (n,); got {embeddings.shape}, {labels.shape}"
-        )
-    if not np.isfinite(embeddings).all():
-        raise ValueError("embeddings must be finite")
     n = len(labels)
+    if matrix.shape != (n, n):
+        raise ValueError(
+            f"distances must be (n, n) and labels (n,); got {matrix.shape}, {labels.shape}"
+        )
+    if not np.isfinite(matrix).all():
+        raise ValueError("distances must be finite")
     others = ~np.eye(n, dtype=bool)
     same = labels[:, None] == labels
     queries = (same & others).any(axis=1)
     if not queries.any():
         raise ValueError("no class has two shapes: there is nothing to retrieve")
     others = others[queries]
-    distances = cdist(embeddings[queries], embeddings)[others].reshape(-1, n - 1)
+    ranked = matrix[queries][others].reshape(-1, n - 1)
     relevant = same[queries][others].reshape(-1, n - 1)
 
-    order = distances.argsort(axis=1)
-    distances = np.take_along_axis(distances, order, axis=1)
+    order = ranked.argsort(axis=1)
+    ranked = np.take_along_axis(ranked, order, axis=1)
     relevant = np.take_along_axis(relevant, order, axis=1)
     # Position of the last shape that is as near as this one.
     places = np.arange(n - 1)
-    tied = np.zeros(distances.shape, dtype=bool)
-    tied[:, :-1] = distances[:, :-1] == distances[:, 1:]
+    tied = np.zeros(ranked.shape, dtype=bool)
+    tied[:, :-1] = ranked[:, :-1] == ranked[:, 1:]
     last = np.minimum.accumulate(np.where(tied, n - 2, places)[:, ::-1], axis=1)[:, ::-1]
     found = np.take_along_axis(relevant.cumsum(axis=1), last, axis=1)
     return _Ranking(relevant, found, found / (last + 1))

@@ -50,10 +50,11 @@ def score(prediction: Prediction, truth: Mapping[str, str]) -> Scores:
     labels = [truth[shape_id] for shape_id in prediction.ids]
     # A class that no training shape has is in no column, and is never predicted.
     correct = accuracy(prediction.scores, [column.get(label, -1) for label in labels])
+    distances = prediction.pairwise_distances()
     return Scores(
         accuracy=correct * len(labels) / len(truth),
-        mean_average_precision=mean_average_precision(prediction.embeddings, labels),
-        precision=precision_recall(prediction.embeddings, labels).tolist(),
+        mean_average_precision=mean_average_precision(distances, labels),
+        precision=precision_recall(distances, labels).tolist(),
         tested=len(truth),
         missing=sorted(set(truth) - set(prediction.ids)),
     )

@@ -21,11 +21,16 @@ def clouds(
     return vectors, labels
 
 
+def first(count: int, labels: dict[str, str]) -> dict[str, str]:
+    """The training part: the labels of the others are not even there."""
+    return dict(list(labels.items())[:count])
+
+
 @pytest.mark.parametrize("classes", [2, 4])
 def test_classes_are_told_apart_whatever_the_units(classes: int) -> None:
     vectors, labels = clouds(classes, 20, spread=0.1)
     ids = tuple(vectors)
-    found = classify(vectors, labels, ids[: 10 * classes], ids[10 * classes :])
+    found = classify(vectors, first(10 * classes, labels), ids[10 * classes :])
     assert found.ids == ids[10 * classes :]
     assert found.classes == tuple(sorted(set(labels.values())))
     assert found.scores.shape == (10 * classes, classes)
@@ -36,7 +41,7 @@ def test_classes_are_told_apart_whatever_the_units(classes: int) -> None:
 def test_embeddings_are_the_representations() -> None:
     vectors, labels = clouds(3, 6)
     ids = tuple(vectors)
-    found = classify(vectors, labels, ids[:9], ids[9:])
+    found = classify(vectors, first(9, labels), ids[9:])
     np.testing.assert_array_equal(
         found.embeddings, np.stack([vectors[i] for i in ids[9:]]).astype(np.float32)
     )
@@ -45,11 +50,10 @@ def test_embeddings_are_the_representations() -> None:
 def test_the_test_part_chooses_nothing() -> None:
     vectors, labels = clouds(3, 12)
     ids = tuple(vectors)
-    train, test = ids[:18], ids[18:]
-    known = {i: labels[i] for i in train}  # their labels are not even there
-    before = classify(vectors, known, train, test)
+    train, test = first(18, labels), ids[18:]
+    before = classify(vectors, train, test)
     changed = {**vectors, test[-1]: vectors[test[-1]] * 1e4}
-    after = classify(changed, known, train, test)
+    after = classify(changed, train, test)
     np.testing.assert_array_equal(after.scores[:-1], before.scores[:-1])
     assert (after.scores[-1] != before.scores[-1]).any()
 
@@ -57,12 +61,13 @@ def test_the_test_part_chooses_nothing() -> None:
 def test_one_shape_a_class_is_enough_to_train() -> None:
     vectors, labels = clouds(4, 5, spread=0.05)
     ids = tuple(vectors)
-    found = classify(vectors, labels, ids[:4], ids[4:])
+    found = classify(vectors, first(4, labels), ids[4:])
     assert (found.scores.argmax(axis=1) == np.arange(16) % 4).all()
 
 
 def test_the_seed_fixes_the_result() -> None:
     vectors, labels = clouds(3, 12, spread=0.6)
     ids = tuple(vectors)
-    first, second = (classify(vectors, labels, ids[:18], ids[18:], seed=4) for _ in range(2))
-    np.testing.assert_array_equal(first.scores, second.scores)
+    train = first(18, labels)
+    one, other = (classify(vectors, train, ids[18:], seed=4) for _ in range(2))
+    np.testing.assert_array_equal(one.scores, other.scores)

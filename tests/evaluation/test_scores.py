@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -35,6 +37,21 @@ def test_one_of_four_wrong_and_the_kinds_interleaved() -> None:
     assert scores.accuracy == 0.75
     # Rank of the one relevant shape: a2 seen from a1, b2 from b1, a1 from a2, b1 from b2.
     assert scores.mean_average_precision == pytest.approx(np.mean([1 / 2, 1 / 3, 1 / 2, 1 / 2]))
+
+
+def test_a_distance_of_its_own_takes_the_place_of_the_embeddings() -> None:
+    places = np.array([0.0, 3.0, 1.0, 7.0], np.float32)  # a1, a2, b1, b2
+    interleaved = np.abs(np.subtract.outer(places, places))
+    scores = score(replace(predict(TRUTH, APART), distances=interleaved), TRUTH)
+    # Seen from a1, a2, b1 and b2.
+    assert scores.mean_average_precision == pytest.approx(np.mean([1 / 2, 1 / 2, 1 / 3, 1 / 2]))
+    assert scores.accuracy == 1.0
+
+
+@pytest.mark.parametrize("field", ["scores", "embeddings", "distances"])
+def test_arrays_that_do_not_fit_the_shapes_are_refused(field: str) -> None:
+    with pytest.raises(ValueError, match=field):
+        replace(predict(TRUTH, APART), **{field: np.zeros((3, 2), np.float32)})
 
 
 def test_a_missing_shape_counts_as_misclassified_and_is_named() -> None:

@@ -19,10 +19,10 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
-from gipkg.api import Baseline
+from gipkg.baselines.vectors import VectorBaseline
 
 
-class Extent(Baseline):
+class Extent(VectorBaseline):
     """Proportions of the box along the principal axes."""
 
     summary: ClassVar[str] = "Proportions of the box along the principal axes"

@@ -21,7 +21,8 @@ rule classify:
         split="results/datasets/{database}/splits/{protocol}-{seed}.csv",
         representations=shards_of("results/baselines/{database}/{baseline}/{shard}.npz"),
     output:
-        "results/baselines/{database}/{baseline}/{protocol}-{seed}.npz",
+        prediction="results/baselines/{database}/{baseline}/{protocol}-{seed}.npz",
+        seconds="results/benchmarks/baselines/{database}/{baseline}/{protocol}-{seed}.json",
     log:
         "results/logs/baselines/{database}/{baseline}/{protocol}-{seed}.log",
     benchmark:
@@ -29,6 +30,6 @@ rule classify:
     conda:
         "../../environment.yml"
     params:
-        code=fingerprint_module("gipkg.baselines.svm"),
+        baseline=lookup("{baseline}", within=BASELINES),
     script:
         "../scripts/classify.py"

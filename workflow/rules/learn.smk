@@ -4,7 +4,8 @@ rule learn:
         images=column_shards,
         complete=ancient("results/failures/{database}/{column}.json"),
     output:
-        "results/learning/{database}/{column}/{protocol}-{seed}.npz",
+        prediction="results/learning/{database}/{column}/{protocol}-{seed}.npz",
+        seconds="results/benchmarks/learning/{database}/{column}/{protocol}-{seed}.json",
     log:
         "results/logs/learning/{database}/{column}/{protocol}-{seed}.log",
     benchmark:

@@ -1,19 +1,9 @@
-"""Train a linear support vector machine on one split and predict its test part."""
-
-from gipkg.baselines.svm import classify
+"""Train a baseline on one split and predict its test part."""
 
 import job
-from samples import Features, read_split, write_prediction
+from samples import Features, predict_test_part
 
 job.start(snakemake)
-features = Features(snakemake.input.representations, "representation")
-labels = read_split(snakemake.input.split, "train")
-test = read_split(snakemake.input.split, "test")
-prediction = classify(
-    features,
-    labels,
-    [shape_id for shape_id in labels if shape_id in features],
-    [shape_id for shape_id in test if shape_id in features],
-    seed=int(snakemake.wildcards.seed),
-)
-write_prediction(snakemake.output[0], prediction)
+baseline = job.plugin("baseline", snakemake.params.baseline)
+representations = Features(snakemake.input.representations, "representation")
+predict_test_part(snakemake, representations, baseline.predict)

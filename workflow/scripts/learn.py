@@ -1,27 +1,21 @@
 """Train a network on one split and predict its test part."""
 
-from pathlib import Path
-
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.experiment import train_and_predict
+from gipkg.learning.prediction import Prediction
 
 import job
-from samples import Features, read_split, write_prediction
+from samples import Features, predict_test_part
 
 job.start(snakemake)
-images = Features(snakemake.input.images, "images")
-labels = read_split(snakemake.input.split, "train")
-test = read_split(snakemake.input.split, "test")
-checkpoint = Path(snakemake.output[0]).with_suffix(".pt")
-prediction = train_and_predict(
-    images,
-    labels,
-    [shape_id for shape_id in labels if shape_id in images],
-    [shape_id for shape_id in test if shape_id in images],
-    network=NetworkConfig(**snakemake.params.network["network"]),
-    training=TrainingConfig(**snakemake.params.network["training"]),
-    seed=int(snakemake.wildcards.seed),
-    checkpoint=checkpoint,
-)
-write_prediction(snakemake.output[0], prediction)
-checkpoint.unlink(missing_ok=True)
+network = NetworkConfig(**snakemake.params.network["network"])
+training = TrainingConfig(**snakemake.params.network["training"])
+
+
+def predict(images: Features, train: dict[str, str], test: tuple[str, ...], **how) -> Prediction:
+    """Train on the geometry images."""
+    chosen = {"network": network, "training": training}
+    return train_and_predict(images, train, tuple(train), test, **chosen, **how)
+
+
+predict_test_part(snakemake, Features(snakemake.input.images, "images"), predict)

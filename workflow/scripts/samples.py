@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import time
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from gipkg.files import read_csv, write_arrays
+from gipkg.files import read_csv, write_arrays, write_json
 from gipkg.learning.prediction import Prediction
 from gipkg.shards import Shard
 from numpy.typing import NDArray
@@ -30,16 +31,49 @@ class Features(Mapping[str, NDArray[Any]]):
     def __len__(self) -> int:
         return len(self._shard)
 
+    def __contains__(self, shape_id: object) -> bool:
+        return shape_id in self._shard
+
 
 def read_split(path: str, part: str) -> dict[str, str]:
     """Read one part of a split, ``train`` or ``test``: shape id to class, in order."""
     return {row["id"]: row["label"] for row in read_csv(Path(path)) if row["part"] == part}
 
 
+def predict_test_part(
+    snakemake: Any, features: Features, predict: Callable[..., Prediction]
+) -> None:
+    """Train on one part of the job's split, predict the other, and write how long it took.
+
+    Parameters
+    ----------
+    snakemake : object
+        The job: a split in, a prediction and its seconds out.
+    features : Features
+        A shape that has none failed in an earlier stage and is in neither part.
+    predict : callable
+        Called as ``predict(features, train, test, seed=…, checkpoint=…)``.
+    """
+    checkpoint = Path(snakemake.output.prediction).with_suffix(".pt")
+    parts = (read_split(snakemake.input.split, part) for part in ("train", "test"))
+    train, test = ({i: part[i] for i in part if i in features} for part in parts)
+    # Of a training that goes on from a checkpoint, only the rest is seen.
+    seconds: dict[str, float | bool] = {"resumed": checkpoint.exists()}
+    wall, cpu = time.perf_counter(), time.process_time()
+    prediction = predict(
+        features, train, tuple(test), seed=int(snakemake.wildcards.seed), checkpoint=checkpoint
+    )
+    seconds |= {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
+    write_json(Path(snakemake.output.seconds), seconds)
+    write_prediction(snakemake.output.prediction, prediction)
+    checkpoint.unlink(missing_ok=True)
+
+
 def write_prediction(path: str, prediction: Prediction) -> None:
-    """Write the class scores and signatures of the test shapes."""
-    fields = Prediction.__slots__
-    write_arrays(Path(path), {field: np.asarray(getattr(prediction, field)) for field in fields})
+    """Write what is said of the test shapes."""
+    fields = {field: getattr(prediction, field) for field in Prediction.__slots__}
+    known = {field: np.asarray(value) for field, value in fields.items() if value is not None}
+    write_arrays(Path(path), known)
 
 
 def read_prediction(path: str) -> Prediction:
@@ -50,4 +84,5 @@ def read_prediction(path: str) -> Prediction:
             tuple(arrays["classes"].tolist()),
             arrays["scores"],
             arrays["embeddings"],
+            arrays.get("distances"),
         )

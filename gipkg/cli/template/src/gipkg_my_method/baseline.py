@@ -9,11 +9,12 @@ import trimesh
 from numpy.typing import NDArray
 from pydantic import Field
 
-from gipkg.api import Baseline, BaselineTags
+from gipkg.api import BaselineTags
+from gipkg.baselines.vectors import VectorBaseline
 from gipkg.descriptors.operators import Operators
 
 
-class MyMethod(Baseline):
+class MyMethod(VectorBaseline):
     """Mean powers of the distance from the centre of the surface, which then has area 1."""
 
     summary: ClassVar[str] = "mean powers of the distance from the centre"
@@ -24,7 +25,7 @@ class MyMethod(Baseline):
     order: int = Field(8, ge=1, le=100, description="highest power; the length of the vector")
 
     def represent(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
-        """Average over the surface (see :class:`gipkg.api.Baseline`)."""
+        """Average over the surface (see :class:`gipkg.api.Baseline`); (order,)."""
         vertices, weights = np.asarray(mesh.vertices), operators.mass
         centre = np.average(vertices, axis=0, weights=weights)
         distance = np.linalg.norm(vertices - centre, axis=1) / np.sqrt(weights.sum())
