@@ -51,6 +51,10 @@ class LearningError(GipkgError):
     """A network cannot be trained on what it was given, or not on this device."""
 
 
+class RenderingError(GipkgError):
+    """Nothing can be drawn on this machine; the message says what to install."""
+
+
 class PluginError(GipkgError):
     """Base of the errors about plugins."""
 
