@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.hierarchy.edge_collapse import collapse, gather_ring
+from gipkg.surfaces.edge_collapse import collapse, gather_ring
 from gipkg.surfaces.halfedges import twins
 
 _DEGREE = 8

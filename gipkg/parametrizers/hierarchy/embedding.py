@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from gipkg.compilation import compiled
 from gipkg.errors import ParametrizationError
 from gipkg.parametrizers.hierarchy.coarsening import Hierarchy, coarsen
-from gipkg.parametrizers.hierarchy.edge_collapse import gather_ring, split
 from gipkg.parametrizers.hierarchy.star import descend, star_energy
+from gipkg.surfaces.edge_collapse import gather_ring, split
 
 _SHAPE = 0.1
 """Weight of the conformal term against the area term on the way up."""

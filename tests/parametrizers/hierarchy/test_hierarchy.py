@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from gipkg.parametrizers.hierarchy.coarsening import coarsen
-from gipkg.parametrizers.hierarchy.edge_collapse import gather_ring, split
+from gipkg.surfaces.edge_collapse import gather_ring, split
 from gipkg.surfaces.halfedges import twins
 from tests.support.shapes import icosphere, needle, urchin
 
