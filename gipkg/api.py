@@ -256,10 +256,35 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class Protocol:
-    """Random splits: `train_per_class` shapes of every class train, the others test."""
+class Volume:
+    """A solid given voxel by voxel.
 
-    train_per_class: int
+    Attributes
+    ----------
+    values : (X, Y, Z) array
+        Numbers or truth values.
+    level : float
+        What is greater is solid.
+    spacing : float
+        Distance of neighbouring voxels.
+    origin : (3,) tuple
+        Place of voxel (0, 0, 0).
+    """
+
+    values: NDArray[Any]
+    level: float = 0.5
+    spacing: float = 1.0
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Protocol:
+    """Random splits: `train_per_class` shapes of every class train, the others test.
+
+    A fraction between 0 and 1, such as 0.5, is a share of the class, rounded down.
+    """
+
+    train_per_class: int | float
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,5 +330,5 @@ class Dataset(Plugin):
         """All shapes, sorted by id, the same in every listing."""
 
     @abstractmethod
-    def load(self, root: Path, shape_id: str) -> trimesh.Trimesh:
-        """Read one shape as it is in the database, unrepaired (``process=False``)."""
+    def load(self, root: Path, shape_id: str) -> trimesh.Trimesh | Volume:
+        """Read one shape as it is in the database: a mesh, unrepaired, or a volume."""

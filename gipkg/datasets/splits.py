@@ -13,7 +13,7 @@ from gipkg.errors import SplitError
 
 
 def random_split(
-    shapes: Sequence[Shape], train_per_class: int, seed: int
+    shapes: Sequence[Shape], train_per_class: int | float, seed: int
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Split every class at random into `train_per_class` training shapes and the others.
 
@@ -25,8 +25,9 @@ def random_split(
     ----------
     shapes : sequence of Shape
         The database; identifiers are unique.
-    train_per_class : int
-        Number of training shapes in each class, at least 1.
+    train_per_class : int or float
+        Number of training shapes in each class, at least 1; or, between 0 and 1, their share
+        of the class, rounded down.
     seed : int
         Non-negative; another seed gives another split.
 
@@ -38,10 +39,9 @@ def random_split(
     Raises
     ------
     SplitError
-        A class would have no test shape, or `train_per_class` is below 1.
+        A class would have no training or no test shape, or `train_per_class` is neither a
+        number of shapes nor a share.
     """
-    if train_per_class < 1:
-        raise SplitError(f"train_per_class is {train_per_class}: at least one shape must train")
     members: dict[str, list[str]] = defaultdict(list)
     for shape in shapes:
         members[shape.label].append(shape.id)
@@ -49,13 +49,32 @@ def random_split(
     train: list[str] = []
     test: list[str] = []
     for label, ids in members.items():
-        if len(ids) <= train_per_class:
+        count = training_count(train_per_class, len(ids))
+        if not 0 < count < len(ids):
             raise SplitError(
-                f"class {label!r} has {len(ids)} shapes: too few for {train_per_class} to train "
-                f"and at least one to test; use fewer training shapes or more shapes a class"
+                f"class {label!r} has {len(ids)} shapes, of which {count} would train: at least "
+                "one must train and one test; change train_per_class, or use larger classes"
             )
         rng = np.random.default_rng([seed, zlib.crc32(label.encode())])
         shuffled = rng.permutation(sorted(ids)).tolist()
-        train += shuffled[:train_per_class]
-        test += shuffled[train_per_class:]
+        train += shuffled[:count]
+        test += shuffled[count:]
     return tuple(sorted(train)), tuple(sorted(test))
+
+
+def training_count(train_per_class: int | float, size: int) -> int:
+    """Return how many of a class of `size` shapes train.
+
+    Raises
+    ------
+    SplitError
+        `train_per_class` is neither a number of shapes nor a share.
+    """
+    if 0 < train_per_class < 1:
+        return int(train_per_class * size)
+    if train_per_class >= 1 and train_per_class == int(train_per_class):
+        return int(train_per_class)
+    raise SplitError(
+        f"train_per_class is {train_per_class}: at least one shape must train; give a number of "
+        "shapes, or a share between 0 and 1"
+    )

@@ -1,21 +1,22 @@
-"""From any mesh to a closed genus-0 surface: the steps, their order and their record."""
+"""From any mesh or volume to a closed genus-0 surface: the steps and their record."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 from pydantic import ConfigDict, Field, validate_call
 
+from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import cleaning, genus, holes, parts, slivers, splitting
 from gipkg.surfaces.reading import load_mesh
 from gipkg.surfaces.report import Report, Step, count
+from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.validation import (
     array_fault,
@@ -23,59 +24,48 @@ from gipkg.surfaces.validation import (
     face_areas,
     genus_zero_faults,
 )
+from gipkg.surfaces.volumes import volume_surface
 
 Share = Annotated[float, Field(ge=0, le=1)]
 Figures = dict[str, int | float | list[float]]
 
 
-@dataclass(frozen=True, slots=True)
-class Surface:
-    """A closed, outward oriented genus-0 surface of one component, and how it came about.
-
-    Attributes
-    ----------
-    mesh : trimesh.Trimesh
-        V vertices; those that were kept come first and in their order.
-    mask : (V,) bool array
-        The topological mask: True on the original surface, False at the vertices of what
-        was added to close it.
-    report : Report
-        What was done.
-    """
-
-    mesh: trimesh.Trimesh
-    mask: NDArray[np.bool_]
-    report: Report
-
-
 @validate_call(config=ConfigDict(arbitrary_types_allowed=True))
 def prepare(
-    source: trimesh.Trimesh | Path | str,
+    source: trimesh.Trimesh | Volume | Path | str,
     *,
     merge_tolerance: Share = 1e-7,
     smallest_part: Share = 0.5,
     largest_hole: Share = 0.4,
+    components: Literal["largest", "joined"] = "largest",
+    vertices: Annotated[int, Field(ge=4)] = 3000,
 ) -> Surface:
-    """Make a closed, oriented genus-0 surface of one component out of a mesh.
+    """Make a closed, oriented genus-0 surface of one component out of a mesh or a volume.
 
-    What is one already stays as it is, bit by bit. Otherwise, as far as needed: coinciding
-    border vertices are merged, duplicate faces removed, non-manifold edges and vertices
-    split, the largest part kept and oriented, holes capped, handles cut along their
-    shortest loop and capped, and faces without area resolved. Vertices keep their place,
-    but for those at a cut, whose two copies draw apart by a hundredth of an edge, and those
-    of faces without area.
+    A volume goes the way of :func:`gipkg.surfaces.volumes.volume_surface`. A mesh that is
+    such a surface stays as it is, bit by bit. Otherwise, as far as needed: coinciding border
+    vertices are merged, duplicate faces removed, non-manifold edges and vertices split, the
+    largest part kept and oriented, holes capped, handles cut along their shortest loop and
+    capped, and faces without area resolved. Vertices keep their place, but for those at a
+    cut, whose two copies draw apart by a hundredth of an edge, and those of faces without
+    area.
 
     Parameters
     ----------
-    source : trimesh.Trimesh or Path or str
-        A mesh, which is not changed, or a file to read.
+    source : trimesh.Trimesh or Volume or Path or str
+        A mesh or a volume, which is not changed, or the file of a mesh.
     merge_tolerance : float
         Largest distance of border vertices that are merged, as a share of the bounding
         box's diagonal.
     smallest_part : float
-        Least area of the largest part, as a share of all parts'; the others are dropped.
+        Least area, or volume, of the largest part, as a share of all parts'; the others are
+        dropped.
     largest_hole : float
         Largest area of the cap over a hole, as a share of the closed surface's.
+    components : {"largest", "joined"}
+        What becomes of a volume of several parts: the largest is kept, or strands join them.
+    vertices : int
+        Largest number of vertices of a volume's surface.
 
     Returns
     -------
@@ -86,16 +76,20 @@ def prepare(
     MeshFormatError
         The file is not readable as a mesh.
     UnsupportedMesh
-        The mesh cannot be repaired this way; the message says why, and what to do.
+        It cannot be repaired this way; the message says why, and what to do.
     """
+    if isinstance(source, Volume):
+        return volume_surface(
+            source, vertices=vertices, components=components, smallest_part=smallest_part
+        )
     mesh = source if isinstance(source, trimesh.Trimesh) else load_mesh(source)
     name = mesh.metadata.get("file_name") or "the mesh"
-    vertices = np.array(mesh.vertices, np.float64)
+    points = np.array(mesh.vertices, np.float64)
     faces = np.array(mesh.faces, np.int64)
-    if fault := array_fault(vertices, faces):
+    if fault := array_fault(points, faces):
         raise UnsupportedMesh(f"{name} is not a triangle mesh: {fault}. Correct its arrays")
-    pipeline = _Pipeline(Triangles(vertices, faces, np.ones(len(vertices), bool)))
-    before = count(vertices, faces)
+    pipeline = _Pipeline(Triangles(points, faces, np.ones(len(points), bool)))
+    before = count(points, faces)
     try:
         pipeline.run(merge_tolerance, smallest_part, largest_hole)
     except UnsupportedMesh as error:

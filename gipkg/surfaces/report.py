@@ -33,6 +33,23 @@ class Counts:
     genus: int | None
 
 
+@dataclass(frozen=True, slots=True)
+class VolumeCounts:
+    """Size and topology of a solid given by voxels.
+
+    Attributes
+    ----------
+    voxels, components, cavities, tunnels : int
+        Tunnels are counted over all components: the genus of their outer surfaces and of
+        their cavities'.
+    """
+
+    voxels: int
+    components: int
+    cavities: int
+    tunnels: int
+
+
 def count(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> Counts:
     """Count size and topology of (V, 3) vertices and (F, 3) faces."""
     edges = halfedges.group_edges(faces)
@@ -64,7 +81,7 @@ class Report:
     A surface that was left as it is has no steps.
     """
 
-    before: Counts
+    before: Counts | VolumeCounts
     after: Counts
     steps: tuple[Step, ...] = field(default_factory=tuple)
 

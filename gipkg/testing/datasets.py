@@ -11,15 +11,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 from unittest.mock import patch
 
 import numpy as np
 
-from gipkg.api import Dataset, Shape
-from gipkg.datasets.splits import random_split
+from gipkg.api import Dataset, Shape, Volume
+from gipkg.datasets.splits import random_split, training_count
 from gipkg.errors import DatasetNotFound
 from gipkg.testing.common import add_common_checks
 from gipkg.testing.suite import Suite, require
+
+if TYPE_CHECKING:
+    import trimesh
 
 SUITE = Suite(floor=9)
 add_common_checks(SUITE)
@@ -45,9 +49,10 @@ def tags_are_complete(plugin: Dataset) -> None:
 @SUITE.check()
 def names_its_protocols(plugin: Dataset) -> None:
     """Each protocol leaves training and test shapes in a mean class."""
-    per_class = plugin.tags.shapes / plugin.tags.classes
+    per_class = plugin.tags.shapes // plugin.tags.classes
     for name, protocol in plugin.protocols.items():
-        require(0 < protocol.train_per_class < per_class, f"{name}: {protocol} of {per_class}")
+        train = training_count(protocol.train_per_class, per_class)
+        require(0 < train < per_class, f"{name}: {protocol} of {per_class}")
 
 
 @SUITE.check(when=lambda plugin: not plugin.tags.generated)
@@ -103,33 +108,34 @@ def splits_by_its_protocols(plugin: Dataset, root: Path) -> None:
         train, test = random_split(shapes, protocol.train_per_class, seed=0)
         require(not set(train) & set(test), f"{name}: the parts overlap")
         require(sorted((*train, *test)) == sorted(labels), f"{name}: the parts are not the whole")
-        counts = set(Counter(labels[shape_id] for shape_id in train).values())
-        require(counts == {protocol.train_per_class}, f"{name}: {counts} shapes a class train")
+        wanted = {
+            label: training_count(protocol.train_per_class, size)
+            for label, size in Counter(labels.values()).items()
+        }
+        counts = Counter(labels[shape_id] for shape_id in train)
+        require(counts == wanted, f"{name}: {dict(counts)} train, not {wanted}")
         again = random_split(tuple(reversed(shapes)), protocol.train_per_class, seed=0)
         require(again == (train, test), f"{name}: the split depends on the order of the listing")
 
 
 @SUITE.check(needs_data=True)
-def loads_the_same_mesh_twice(plugin: Dataset, root: Path) -> None:
-    """Meshes are not empty, fit the indices of their faces, and come back bit-equal."""
+def loads_the_same_shape_twice(plugin: Dataset, root: Path) -> None:
+    """Meshes and volumes are sound, and come back bit-equal."""
     for shape_id in _sample(plugin, root):
         with no_network():
             first, second = (plugin.load(root, shape_id) for _ in range(2))
-        vertices, faces = np.asarray(first.vertices), np.asarray(first.faces)
-        require(len(faces) and faces.shape[1] == 3, f"{shape_id} has no triangles")
-        require(np.isfinite(vertices).all(), f"{shape_id} has vertices that are not finite")
-        require(faces.min() >= 0 and faces.max() < len(vertices), f"{shape_id}: indices")
-        same = np.array_equal(vertices, second.vertices) and np.array_equal(faces, second.faces)
-        require(same, f"{shape_id} differs when loaded again")
+        if isinstance(first, Volume):
+            _require_solid(first, shape_id)
+        else:
+            _require_triangles(first, shape_id)
+        require(_content(first) == _content(second), f"{shape_id} differs when loaded again")
 
 
 @SUITE.check(needs_data=True)
 def holds_different_shapes(plugin: Dataset, root: Path) -> None:
-    """No two of the sampled shapes are the same mesh."""
-    contents = [
-        plugin.load(root, shape_id).vertices.tobytes() for shape_id in _sample(plugin, root)
-    ]
-    require(len(set(contents)) == len(contents), "two shapes have the same vertices")
+    """No two of the sampled shapes are the same mesh or volume."""
+    contents = {_content(plugin.load(root, shape_id)) for shape_id in _sample(plugin, root)}
+    require(len(contents) == SAMPLE, "two shapes are the same")
 
 
 @SUITE.check(needs_data=True)
@@ -159,3 +165,23 @@ def _sample(plugin: Dataset, root: Path) -> list[str]:
     shapes = plugin.shapes(root)
     positions = np.linspace(0, len(shapes) - 1, SAMPLE).astype(int)
     return [shapes[position].id for position in positions]
+
+
+def _content(shape: trimesh.Trimesh | Volume) -> bytes:
+    arrays = [shape.values] if isinstance(shape, Volume) else [shape.vertices, shape.faces]
+    return b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)
+
+
+def _require_triangles(mesh: trimesh.Trimesh, shape_id: str) -> None:
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    require(len(faces) and faces.shape[1] == 3, f"{shape_id} has no triangles")
+    require(np.isfinite(vertices).all(), f"{shape_id} has vertices that are not finite")
+    require(faces.min() >= 0 and faces.max() < len(vertices), f"{shape_id}: indices")
+
+
+def _require_solid(volume: Volume, shape_id: str) -> None:
+    values = np.asarray(volume.values)
+    require(values.ndim == 3, f"{shape_id} has {values.ndim} axes instead of three")
+    require(np.isfinite(values).all(), f"{shape_id} has values that are not finite")
+    solid = values > volume.level
+    require(solid.any() and not solid.all(), f"{shape_id} is empty, or has no outside")

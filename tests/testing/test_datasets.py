@@ -105,7 +105,7 @@ WRONG = {
     Unsplittable: {"names-its-protocols", "splits-by-its-protocols"},
     Absent: {"is-available-anywhere"},
     Littering: {"is-available-anywhere"},
-    DicingBalls: {"loads-the-same-mesh-twice"},
+    DicingBalls: {"loads-the-same-shape-twice"},
     Repeating: {"holds-different-shapes"},
     Inventing: {"refuses-an-unknown-shape"},
 }

@@ -1,0 +1,147 @@
+"""From a volume to its surface: topology first, among the voxels, then the mesh."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from gipkg.api import Volume
+from gipkg.errors import UnsupportedMesh
+from gipkg.surfaces.report import Report, Step, VolumeCounts, count
+from gipkg.surfaces.surface import Surface
+from gipkg.surfaces.triangles import Triangles
+from gipkg.surfaces.validation import check_genus_zero
+from gipkg.surfaces.volumes.decimation import decimate
+from gipkg.surfaces.volumes.fairing import fair
+from gipkg.surfaces.volumes.lattice import Solid
+from gipkg.surfaces.volumes.shrinking import contractible_hull
+from gipkg.surfaces.volumes.tetrahedra import lattice_surface
+from gipkg.surfaces.volumes.topology import count_topology, fill_cavities, largest_component
+
+MARGIN = 2
+"""Empty voxels around the solid."""
+
+BLUR = 0.7
+"""Standard deviation, in voxels, of the Gaussian that says where the surface runs."""
+
+FAIRING = 10
+"""Rounds of smoothing of the surface, before its vertices become fewer."""
+
+
+def volume_surface(
+    volume: Volume,
+    *,
+    vertices: int = 3000,
+    components: Literal["largest", "joined"] = "largest",
+    smallest_part: float = 0.5,
+) -> Surface:
+    """Make a closed, oriented genus-0 surface of one component out of any solid.
+
+    The topology is settled among the voxels and never changes afterwards: one component is
+    kept or all are joined, cavities filled, tunnels closed by membranes one voxel thick where
+    they are narrowest. Marching tetrahedra, in the lattice in which all this was decided, put
+    the surface on the level of the slightly blurred values, as far as the topology leaves the
+    choice. It is smoothed and its edges collapse to the number of vertices asked for.
+
+    Parameters
+    ----------
+    volume : Volume
+        Not changed.
+    vertices : int
+        Largest number of vertices, at least 4.
+    components : {"largest", "joined"}
+        Keep the largest component, or join all of them by strands where they come closest.
+        Components that touch only across the shorter diagonals of voxels count as apart.
+    smallest_part : float
+        Least share of the voxels that the largest component must have, if it alone is kept.
+
+    Returns
+    -------
+    Surface
+        In the volume's coordinates. The mask is False at the vertices of membranes and
+        strands; the report counts what was found and done.
+
+    Raises
+    ------
+    UnsupportedMesh
+        The volume is no solid, or its largest component is too small a share of it.
+    """
+    values, corner = _crop(volume)
+    solid = values > volume.level
+    kept, before, steps = _one_component(solid, components, smallest_part)
+    filled = fill_cavities(kept)
+    hull = contractible_hull(filled)
+    steps += _closing_steps(kept, filled, hull)
+    dense, faces, owner = lattice_surface(hull, _depth(values, solid, hull, volume.level))
+    original = filled.ravel()[owner]
+    result = decimate(Triangles(fair(dense, faces, FAIRING), faces, original), vertices)
+    points = (result.vertices + corner) * volume.spacing + volume.origin
+    mesh = trimesh.Trimesh(points, result.faces, process=False)
+    check_genus_zero(mesh)
+    report = Report(before, count(points, result.faces), tuple(steps))
+    return Surface(mesh, result.original, report)
+
+
+def _crop(volume: Volume) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
+    """Cut out the solid with a margin; return also the first voxel of the cut."""
+    values = np.asarray(volume.values)
+    if values.ndim != 3:
+        raise UnsupportedMesh(f"the volume has {values.ndim} axes; it takes three")
+    if not np.isfinite(values).all():
+        raise UnsupportedMesh("the volume has values that are not finite; replace them")
+    solid = values > volume.level
+    if not solid.any():
+        raise UnsupportedMesh(f"the volume has no value above its level of {volume.level}")
+    # The outside may be missing where the solid fills the whole array.
+    empty = min(float(values.min()), volume.level - 1)
+    padded = np.pad(values.astype(np.float32), MARGIN, constant_values=empty)
+    box = ndimage.find_objects(np.pad(solid, MARGIN).view(np.uint8))[0]
+    cut = tuple(slice(side.start - MARGIN, side.stop + MARGIN) for side in box)
+    return padded[cut], np.array([side.start for side in cut]) - MARGIN
+
+
+def _one_component(
+    solid: Solid, components: str, smallest_part: float
+) -> tuple[Solid, VolumeCounts, list[Step]]:
+    """Choose the voxels to work on; return also the counts of all and what was done."""
+    before = count_topology(solid)
+    if before.components == 1 or components == "joined":
+        return solid, before, []
+    largest, share = largest_component(solid)
+    if share < smallest_part:
+        raise UnsupportedMesh(
+            f"the largest of the volume's {before.components} components has only {share:.0%} of "
+            f"its voxels, less than {smallest_part:.0%}, so most of the shape would be lost. Pass "
+            "components='joined' to join them, or smallest_part=0 to keep the largest all the same"
+        )
+    step = Step("keep largest part", {"dropped parts": before.components - 1, "voxel share": share})
+    return largest, before, [step]
+
+
+def _closing_steps(kept: Solid, filled: Solid, hull: Solid) -> list[Step]:
+    """Say what was filled, joined and closed on the way from the voxels kept to the hull."""
+    found = count_topology(kept)
+    steps = []
+    if found.cavities:
+        voxels = int(np.count_nonzero(filled & ~kept))
+        steps.append(Step("fill cavities", {"cavities": found.cavities, "voxels": voxels}))
+    if added := int(np.count_nonzero(hull & ~filled)):
+        closed = count_topology(filled)
+        name = "join parts and close tunnels" if closed.components > 1 else "close tunnels"
+        steps.append(
+            Step(name, {"parts": closed.components, "tunnels": closed.tunnels, "voxels": added})
+        )
+    return steps
+
+
+def _depth(
+    values: NDArray[np.float32], solid: Solid, hull: Solid, level: float
+) -> NDArray[np.float32]:
+    """Return how far the blurred values are above the level, those of the changed voxels set."""
+    changed = np.where(hull, values.max(), values.min())
+    blurred = ndimage.gaussian_filter(np.where(hull == solid, values, changed), BLUR)
+    return blurred - np.float32(level)
