@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import logging
 import shutil
+import time
 import zipfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -25,7 +26,7 @@ from numpy.lib.npyio import NpzFile
 from numpy.typing import NDArray
 
 from gipkg.errors import DamagedFileError
-from gipkg.files import atomic, write_arrays
+from gipkg.files import atomic, write_arrays, write_csv, write_text
 from gipkg.progress import progress
 
 Arrays = Mapping[str, NDArray[Any]]
@@ -128,6 +129,7 @@ def map_shard(
     *,
     key: str,
     failures: Mapping[str, str] = NO_FAILURES,
+    seconds: Path | None = None,
 ) -> None:
     """Compute the arrays of every shape and pack them into one file.
 
@@ -152,6 +154,9 @@ def map_shard(
         From :func:`content_key`; work of another key is never used.
     failures : mapping
         Shapes that failed in an earlier stage and why: carried on.
+    seconds : Path, optional
+        Table of the CPU seconds that each of the shapes took, in whichever run it was done.
+        A clock never says the same twice, so this is a file of its own.
     """
     folder = work / key
     failed = dict(failures)
@@ -160,7 +165,11 @@ def map_shard(
         part = folder / f"{sha256(shape_id.encode()).hexdigest()}.npz"
         try:
             if not part.exists():
-                _keep(part, compute(shape_id))
+                began = time.process_time()
+                arrays = compute(shape_id)
+                if seconds is not None:
+                    write_text(_clock(part), f"{time.process_time() - began:.6f}")
+                _keep(part, arrays)
         except _NOT_THE_SHAPES_FAULT:
             raise
         except Exception as error:
@@ -168,6 +177,9 @@ def map_shard(
             log.exception("%s: %s failed", label, shape_id)
         else:
             done[shape_id] = part
+    if seconds is not None:
+        taken = [(shape_id, _clock(part).read_text()) for shape_id, part in done.items()]
+        write_csv(seconds, ("id", "seconds"), taken)
     _pack(out, done, failed)
     with suppress(FileNotFoundError):
         shutil.rmtree(work)
@@ -188,6 +200,11 @@ def _keep(part: Path, arrays: Arrays) -> None:
     if not arrays:
         raise ValueError("nothing was computed")
     write_arrays(part, {_quote(name): array for name, array in arrays.items()})
+
+
+def _clock(part: Path) -> Path:
+    """Return the file beside a part that says what it took; it is written before the part."""
+    return part.with_suffix(".seconds")
 
 
 def _pack(out: Path, done: Mapping[str, Path], failures: Mapping[str, str]) -> None:

@@ -30,6 +30,9 @@ class Distortion:
         Signed areas over 4π; 1 for a map that covers the sphere once.
     face_std, vertex_std : float
         Standard deviation of r - 1 over faces, and over vertices (a third of their faces).
+    weighted_face_std : float
+        The same over the surface rather than over its faces: each counts by its area on the
+        mesh, so that slivers weigh as little as they are.
     variance : float
         The paper's δh·A: variance over faces of sphere area minus mesh area. It falls with
         resolution: compare it at equal numbers of faces only.
@@ -41,6 +44,7 @@ class Distortion:
     degree: float
     face_std: float
     vertex_std: float
+    weighted_face_std: float
     variance: float
 
 
@@ -60,14 +64,17 @@ def distortion(spherical_map: SphericalMap) -> Distortion:
     on_mesh = face_areas(np.asarray(spherical_map.mesh.vertices), faces)
     on_mesh *= 4 * np.pi / on_mesh.sum()
     on_sphere = signed_spherical_areas(spherical_map.sphere, faces)
+    ratio = on_sphere / on_mesh
+    mean = np.average(ratio, weights=on_mesh)
     vertex_ratio = _at_vertices(on_sphere, faces) / _at_vertices(on_mesh, faces)
     return Distortion(
         spherical_areas=on_sphere,
         mesh_areas=on_mesh,
         flips=int(np.count_nonzero(flipped_faces(spherical_map.sphere, faces))),
         degree=float(on_sphere.sum() / (4 * np.pi)),
-        face_std=float(np.std(on_sphere / on_mesh)),
+        face_std=float(np.std(ratio)),
         vertex_std=float(np.std(vertex_ratio)),
+        weighted_face_std=float(np.sqrt(np.average((ratio - mean) ** 2, weights=on_mesh))),
         variance=float(np.var(on_sphere - on_mesh)),
     )
 

@@ -59,12 +59,17 @@ def column_note(column: Mapping[str, Any], plugins: Mapping[tuple[str, str], Plu
 
 def failure_note(column: str, database: str, failures: Mapping[str, str]) -> str:
     """Name the shapes that a column lost, and why."""
-    shapes = "; ".join(
-        f"{literal(shape_id)} ({literal(reason)})" for shape_id, reason in sorted(failures.items())
-    )
     return (
         f"**{column}** lost {len(failures)} shapes of {literal(database)}. In a test part each "
-        f"counts as misclassified and retrieval leaves it out: {shapes}."
+        f"counts as misclassified and retrieval leaves it out: {_listing(failures)}."
+    )
+
+
+def missing_note(who: str, database: str, failures: Mapping[str, str]) -> str:
+    """Name the shapes that a stage or a method gives nothing for, and why."""
+    return (
+        f"**{who}** gives nothing for {len(failures)} shapes of {literal(database)}: "
+        f"{_listing(failures)}."
     )
 
 
@@ -81,6 +86,12 @@ def literal(text: str) -> str:
     """Set a text from data or configuration as code, so that nothing in it is markup."""
     flat = " ".join(text.split()).replace("`", "'").replace("|", "¦")
     return f"`{flat}`"
+
+
+def _listing(failures: Mapping[str, str]) -> str:
+    return "; ".join(
+        f"{literal(shape_id)} ({literal(reason)})" for shape_id, reason in sorted(failures.items())
+    )
 
 
 def _part(kind: str, name: str, plugins: Mapping[tuple[str, str], Plugin]) -> str:

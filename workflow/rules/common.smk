@@ -99,16 +99,33 @@ def instances(kind, names):
     return {name: instance(kind, name) for name in sorted(set(names))}
 
 
-def chosen_databases():
-    """Return the databases asked for; by default the real ones at hand, else the generated."""
-    if config["databases"] != "auto":
-        for name in config["databases"]:
-            require_defined("databases", name, "datasets")
-        return config["databases"]
+def picked(among, names):
+    """Return some of the instances, in one order."""
+    return {name: among[name] for name in sorted(set(names))}
+
+
+def chosen_methods():
+    """Return the methods of the distortion table: parametrizer -> name in the paper, or None."""
+    methods = config["distortion"]["methods"]
+    for number, method in enumerate(methods):
+        key = f"distortion.methods.{number}.parametrizer"
+        require_defined(key, method["parametrizer"], "parametrizers")
+    return {method["parametrizer"]: method.get("paper") for method in methods}
+
+
+def chosen_databases(key, asked, suits):
+    """Return the databases asked for under a key; by default the real ones at hand that suit.
+
+    Where there is none of them, the generated ones stand in.
+    """
+    if asked != "auto":
+        for name in asked:
+            require_defined(key, name, "datasets")
+        return asked
     root = Path(config["data_root"])
     plugins = {name: dataset_plugin(name) for name in config["datasets"]}
     real = [name for name, plugin in plugins.items() if not plugin.tags.generated]
-    found = [name for name in real if plugins[name].available(root)]
+    found = [name for name in real if suits(name) and plugins[name].available(root)]
     return found or [name for name in plugins if name not in real]
 
 
@@ -124,6 +141,11 @@ def protocols_of(database):
         return own
     protocols = dataset_plugin(database).protocols
     return {name: protocol.train_per_class for name, protocol in protocols.items()}
+
+
+def is_mapped_only(database):
+    """Tell whether a database is there for its surfaces: nothing is classified in it."""
+    return not protocols_of(database)
 
 
 def alternatives(names):
@@ -174,12 +196,29 @@ def predictions(wildcards):
 require_valid(config)
 
 COLUMNS = chosen_columns()
-DATABASES = chosen_databases()
+DATABASES = chosen_databases("databases", config["databases"], protocols_of)
 PROTOCOLS = {database: protocols_of(database) for database in DATABASES}
 LEARNED = [name for name, column in COLUMNS.items() if "network" in column]
+METHODS = chosen_methods()
+MAPPED = chosen_databases("distortion.databases", config["distortion"]["databases"], is_mapped_only)
+for name, protocols in PROTOCOLS.items():
+    if not protocols:
+        raise WorkflowError(
+            f"configuration, databases: {name!r} has no protocol to split it by; "
+            f"datasets.{name}.protocols can name one"
+        )
+for name in config["reconstruction"]["parametrizers"]:
+    require_defined("reconstruction.parametrizers", name, "parametrizers")
 
-DATASETS = instances("dataset", DATABASES)
-PARAMETRIZERS = instances("parametrizer", (COLUMNS[name]["parametrizer"] for name in LEARNED))
+DATASETS = instances("dataset", (*DATABASES, *MAPPED))
+PARAMETRIZERS = instances(
+    "parametrizer",
+    (
+        *(COLUMNS[name]["parametrizer"] for name in LEARNED),
+        *METHODS,
+        *config["reconstruction"]["parametrizers"],
+    ),
+)
 DESCRIPTORS = instances(
     "descriptor", (one for name in LEARNED for one in COLUMNS[name]["descriptors"])
 )
@@ -190,7 +229,7 @@ NETWORKS = {name: network(COLUMNS[name]["network"]) for name in LEARNED}
 
 
 wildcard_constraints:
-    database=alternatives(DATABASES),
+    database=alternatives(DATASETS),
     parametrizer=alternatives(PARAMETRIZERS),
     descriptor=alternatives(DESCRIPTORS),
     baseline=alternatives(BASELINES),

@@ -29,6 +29,54 @@ rule evaluate:
         "../../environment.yml"
     params:
         seeds=config["seeds"],
-        code=fingerprint_module("gipkg.evaluation"),
+        code=fingerprint_module("gipkg.evaluation.scores"),
     script:
         "../scripts/evaluate.py"
+
+
+rule distort:
+    input:
+        surfaces=shards_of("results/surfaces/{database}/{shard}.npz"),
+        maps=shards_of("results/parametrizers/{database}/{parametrizer}/{shard}.npz"),
+        seconds=shards_of("results/benchmarks/parametrizers/{database}/{parametrizer}/{shard}.csv"),
+    output:
+        shapes="results/distortion/{database}/{parametrizer}.csv",
+        histogram="results/distortion/{database}/{parametrizer}.histogram.csv",
+    log:
+        "results/logs/distortion/{database}/{parametrizer}.log",
+    benchmark:
+        "results/benchmarks/distortion/{database}/{parametrizer}.tsv"
+    conda:
+        "../../environment.yml"
+    params:
+        code=[
+            fingerprint_module(name)
+            for name in ("gipkg.evaluation.histogram", "gipkg.reporting.shapes")
+        ],
+    script:
+        "../scripts/distort.py"
+
+
+rule reconstruct:
+    input:
+        shapes="results/datasets/{database}/shapes.csv",
+        surfaces=shards_of("results/surfaces/{database}/{shard}.npz"),
+        maps=shards_of("results/parametrizers/{database}/{parametrizer}/{shard}.npz"),
+    output:
+        "results/reconstruction/{database}/{parametrizer}.csv",
+    log:
+        "results/logs/reconstruction/{database}/{parametrizer}.log",
+    benchmark:
+        "results/benchmarks/reconstruction/{database}/{parametrizer}.tsv"
+    conda:
+        "../../environment.yml"
+    params:
+        shapes=config["reconstruction"]["shapes"],
+        sizes=config["reconstruction"]["sizes"],
+        sampling=config["images"]["sampling"],
+        code=[
+            fingerprint_module(name)
+            for name in ("gipkg.evaluation.surface_distance", "gipkg.images")
+        ],
+    script:
+        "../scripts/reconstruct.py"

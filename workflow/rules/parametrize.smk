@@ -2,7 +2,8 @@ rule parametrize:
     input:
         "results/surfaces/{database}/{shard}.npz",
     output:
-        "results/parametrizers/{database}/{parametrizer}/{shard}.npz",
+        maps="results/parametrizers/{database}/{parametrizer}/{shard}.npz",
+        seconds="results/benchmarks/parametrizers/{database}/{parametrizer}/{shard}.csv",
     log:
         "results/logs/parametrizers/{database}/{parametrizer}/{shard}.log",
     benchmark:

@@ -32,17 +32,32 @@ def plugin(kind: registry.Kind, spec: Mapping[str, Any]) -> Plugin:
     return registry.create(kind, spec["plugin"], spec["parameters"])
 
 
+def plugins(specs: Mapping[registry.Kind, Mapping[str, Any]]) -> dict[tuple[str, str], Plugin]:
+    """Build the plugins of several kinds: (kind, name in the configuration) -> plugin."""
+    return {
+        (kind, name): plugin(kind, spec)
+        for kind, instances in specs.items()
+        for name, spec in instances.items()
+    }
+
+
 def map_shapes(
     snakemake: Any,
     ids: Collection[str],
     compute: Callable[[str], Arrays],
     failures: Mapping[str, str],
 ) -> None:
-    """Fill the job's output, resuming what an earlier run of the same job has left."""
+    """Fill the job's output, resuming what an earlier run of the same job has left.
+
+    An output named ``seconds`` becomes the table of what each shape took.
+    """
     out = Path(snakemake.output[0])
+    seconds = snakemake.output.get("seconds")
     key = content_key(dict(snakemake.params.items()), map(Path, snakemake.input))
     label = str(out.with_suffix("").relative_to("results"))
-    map_shard(ids, compute, out, out.with_suffix(".work"), label, key=key, failures=failures)
+    work = out.with_suffix(".work")
+    clock = Path(seconds) if seconds else None
+    map_shard(ids, compute, out, work, label, key=key, failures=failures, seconds=clock)
 
 
 def _say(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:

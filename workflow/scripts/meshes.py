@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
 import trimesh
+from gipkg.api import SphericalMap
 from gipkg.descriptors.operators import Operators, Spectrum
-from gipkg.shards import Arrays
+from gipkg.shards import Arrays, Shard
 
 
 def mesh_of(surface: Arrays) -> trimesh.Trimesh:
@@ -15,3 +21,44 @@ def mesh_of(surface: Arrays) -> trimesh.Trimesh:
 def operators_of(surface: Arrays, spectrum: Arrays) -> Operators:
     """Return the operators of a surface, its eigenpairs known."""
     return Operators(mesh_of(surface), spectrum=Spectrum(**spectrum))
+
+
+class Maps:
+    """The surfaces of a whole database and their maps under one method, read when asked for.
+
+    Attributes
+    ----------
+    ids : tuple of str
+        The shapes that have a map, sorted.
+    failures : dict
+        Identifier -> reason, of the shapes that have no map.
+    """
+
+    def __init__(self, surfaces: Sequence[str], maps: Sequence[str]) -> None:
+        self._surfaces = {
+            shape_id: shard for shard in map(_open, surfaces) for shape_id in shard.ids
+        }
+        opened = [_open(path) for path in maps]
+        self._maps = {shape_id: shard for shard in opened for shape_id in shard.ids}
+        self.ids = tuple(sorted(self._maps))
+        self.failures = {
+            shape_id: reason for shard in opened for shape_id, reason in shard.failures.items()
+        }
+
+    def report(self, shape_id: str) -> dict[str, Any] | None:
+        """Return what the surface stage reports; None where it failed."""
+        shard = self._surfaces.get(shape_id)
+        return None if shard is None else json.loads(str(shard[shape_id]["report"]))
+
+    def mesh(self, shape_id: str) -> trimesh.Trimesh | None:
+        """Return the surface of a shape; None where there is none."""
+        shard = self._surfaces.get(shape_id)
+        return None if shard is None else mesh_of(shard[shape_id])
+
+    def __getitem__(self, shape_id: str) -> SphericalMap:
+        surface, sphere = self._surfaces[shape_id][shape_id], self._maps[shape_id][shape_id]
+        return SphericalMap(mesh_of(surface), sphere["sphere"])
+
+
+def _open(path: str) -> Shard:
+    return Shard.open(Path(path))

@@ -15,11 +15,7 @@ job.start(snakemake)
 config, rows = snakemake.params.config, snakemake.params.rows
 headings = [column["column"] for column in config["columns"]]
 databases = list(dict.fromkeys(database for database, _ in rows))
-plugins = {
-    (kind, name): job.plugin(kind, spec)
-    for kind, instances in snakemake.params.plugins.items()
-    for name, spec in instances.items()
-}
+plugins = job.plugins(snakemake.params.plugins)
 
 
 def read(path: str) -> Any:

@@ -1,0 +1,42 @@
+"""Measure what geometry images keep of some shapes: image, mesh again, distance."""
+
+from pathlib import Path
+
+from gipkg.api import Shape
+from gipkg.datasets.selection import spread_over_classes
+from gipkg.errors import GipkgError
+from gipkg.evaluation.surface_distance import surface_distance
+from gipkg.files import read_csv, write_csv
+from gipkg.images import geometry_image, reconstruct
+from gipkg.progress import progress
+
+import job
+from meshes import Maps
+
+job.start(snakemake)
+maps = Maps(snakemake.input.surfaces, snakemake.input.maps)
+params = snakemake.params
+
+
+def figures(shape_id: str, size: int) -> tuple[str, str, str]:
+    """Return Hausdorff distance, mean distance and why they could not be had, as text."""
+    if shape_id in maps.failures:
+        return "", "", maps.failures[shape_id]
+    spherical_map = maps[shape_id]
+    mesh = spherical_map.mesh
+    try:
+        image = geometry_image(spherical_map, mesh.vertices, size, sampling=params.sampling)
+    except GipkgError as error:
+        return "", "", f"{type(error).__name__}: {error}"
+    distance = surface_distance(mesh, reconstruct(image))
+    return f"{distance.hausdorff:.6g}", f"{distance.mean:.6g}", ""
+
+
+listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(snakemake.input.shapes))]
+chosen = spread_over_classes(listing, params.shapes)
+rows = [
+    (shape_id, size, *figures(shape_id, size))
+    for shape_id in progress(chosen, "reconstruction")
+    for size in params.sizes
+]
+write_csv(Path(snakemake.output[0]), ("id", "size", "hausdorff", "mean", "failure"), rows)
