@@ -38,6 +38,9 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
     },
     "dataset": {
         "articulated": "gipkg.datasets.articulated:Articulated",
+        "mcgill": "gipkg.datasets.mcgill:McGill",
+        "mcgill-articulated": "gipkg.datasets.mcgill:McGillArticulated",
+        "mcgill19": "gipkg.datasets.mcgill:McGill19",
         "shrec11": "gipkg.datasets.shrec11:Shrec11",
         "tosca": "gipkg.datasets.tosca:Tosca",
         "tosca-highres": "gipkg.datasets.tosca:ToscaHighResolution",

@@ -1,0 +1,212 @@
+"""The McGill 3D shape benchmark: solids as volumes of 128³ voxels, and three choices of them."""
+
+from __future__ import annotations
+
+import gzip
+import struct
+import zlib
+from abc import abstractmethod
+from collections import defaultdict
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path, PurePosixPath
+from types import MappingProxyType
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from gipkg.api import Dataset, DatasetTags, Protocol, Shape, Volume
+from gipkg.datasets.archives import is_intact, read_members
+from gipkg.errors import DatasetNotFound, MeshFormatError
+
+ARCHIVE = "mcgill/mcgill_im.tar.gz"
+SHA256 = "c9d321a3b804ab10f2097c839faf096f77653ffde6aaf34551e28b5a4ab9376c"
+HOME = "http://www.cim.mcgill.ca/~shape/benchMark/"
+COPY = "https://github.com/ninek190/project_mapper_tap/tree/f1929b2"
+
+ARTICULATED = (
+    "ants",
+    "crabs",
+    "hands",
+    "humans",
+    "octopuses",
+    "pliers",
+    "snakes",
+    "spectacles",
+    "spiders",
+    "teddy",
+)
+MIXED = (
+    "ants",
+    "crabs",
+    "hands",
+    "octopuses",
+    "spectacles",
+    "airplanes",
+    "chairs",
+    "fishes",
+    "four",
+    "tables",
+)
+"""Five articulated classes and five others; the paper does not name its own ten."""
+
+PER_CLASS = 20
+"""Shapes that are chosen of each class, as in the paper."""
+
+DUPLICATES = frozenset({"birds-b18", "birds-b20", "dolphins-b4", "four-b7", "tables-b14"})
+"""Left out: voxel by voxel the same as birds-b12, birds-b15, dolphins-b3, four-b3, tables-14."""
+
+SUFFIX = ".im.gz"
+HEADER = 1024
+VOXELS: Mapping[int, np.dtype[Any]] = MappingProxyType({1: np.dtype("u1"), 4: np.dtype("<f4")})
+"""Number of a type in the header -> how a voxel is stored."""
+
+
+class McGillDataset(Dataset):
+    """What the three choices share: the archive, its shapes and their volumes.
+
+    Members of the archive are ``{articulated,non-articulated}/<class>/<name>.im.gz``; an
+    identifier is class and name, such as ``ants-b13``. Duplicates are left out.
+    """
+
+    citation: ClassVar[str] = (
+        "K. Siddiqi, J. Zhang, D. Macrini, A. Shokoufandeh, S. Bouix, S. Dickinson, Retrieving "
+        "Articulated 3-D Models Using Medial Surfaces, Machine Vision and Applications 19(4) 2008"
+    )
+
+    def available(self, root: Path) -> bool:
+        """Whether the archive lies under the data root, with the right checksum."""
+        return is_intact(root / ARCHIVE, SHA256)
+
+    def fetch(self, root: Path) -> None:
+        """Say where the volumes are published; no address has the archive itself.
+
+        Raises
+        ------
+        DatasetNotFound
+            The archive is not there.
+        """
+        path = root / ARCHIVE
+        if not is_intact(path, SHA256):
+            raise DatasetNotFound(
+                f"{path.name} cannot be downloaded as one file. Its volumes are at {HOME}, whose "
+                f"authors ask for a mail first, and at {COPY}; put the archive of them with the "
+                f"SHA-256 {SHA256} in {path.parent}"
+            )
+
+    @abstractmethod
+    def _choose(self, label: str, ids: list[str]) -> list[str]:
+        """Return the identifiers, out of the sorted ones of a class, that belong here."""
+
+    def shapes(self, root: Path) -> tuple[Shape, ...]:
+        """All chosen shapes; the class is the name of the folder."""
+        classes: dict[str, list[str]] = defaultdict(list)
+        for shape_id in sorted(_members(root)):
+            if shape_id not in DUPLICATES:
+                classes[shape_id.partition("-")[0]].append(shape_id)
+        chosen = [
+            Shape(shape_id, label)
+            for label, ids in classes.items()
+            for shape_id in self._choose(label, ids)
+        ]
+        return tuple(sorted(chosen, key=lambda shape: shape.id))
+
+    def load(self, root: Path, shape_id: str) -> Volume:
+        """Read one volume, 1 inside and 0 outside.
+
+        Raises
+        ------
+        DatasetNotFound
+            No shape has that identifier, or the archive is missing or damaged.
+        MeshFormatError
+            The archive's member is no volume.
+        """
+        member = _members(root).get(shape_id)
+        if member is None or shape_id in DUPLICATES:
+            raise DatasetNotFound(f"McGill has no shape {shape_id!r}; it has such as ants-b1")
+        content = read_members(root / ARCHIVE, SHA256, SUFFIX)[member]
+        try:
+            return Volume(_read_voxels(gzip.decompress(content)))
+        except (OSError, EOFError, zlib.error, struct.error, ValueError, KeyError) as error:
+            raise MeshFormatError(root / ARCHIVE / member, f"not a volume ({error!r})") from error
+
+
+class McGillChoice(McGillDataset):
+    """Twenty shapes of each of some classes, chosen by a seed."""
+
+    classes: ClassVar[tuple[str, ...]]
+
+    seed: int = Field(0, ge=0, description="Seed of the choice of 20 shapes a class.")
+
+    def _choose(self, label: str, ids: list[str]) -> list[str]:
+        if label not in self.classes:
+            return []
+        rng = np.random.default_rng([self.seed, zlib.crc32(label.encode())])
+        chosen: list[str] = rng.permutation(ids)[:PER_CLASS].tolist()
+        return chosen
+
+
+def _tags(shapes: int, classes: int) -> DatasetTags:
+    return DatasetTags(
+        generated=False,
+        shapes=shapes,
+        classes=classes,
+        licence="none stated",
+        source=HOME,
+        files={ARCHIVE: SHA256},
+    )
+
+
+class McGill(McGillChoice):
+    """Ten classes, five of them articulated, of 20 shapes each: a mix as in the paper."""
+
+    summary: ClassVar[str] = "McGill benchmark: 10 classes, articulated and not, x 20 volumes"
+    tags: ClassVar[DatasetTags] = _tags(PER_CLASS * len(MIXED), len(MIXED))
+    protocols: ClassVar[Mapping[str, Protocol]] = {"McGill1": Protocol(10), "McGill2": Protocol(16)}
+    classes: ClassVar[tuple[str, ...]] = MIXED
+
+
+class McGillArticulated(McGillChoice):
+    """The ten articulated classes, of 20 shapes each."""
+
+    summary: ClassVar[str] = "McGill benchmark: the 10 articulated classes x 20 volumes"
+    tags: ClassVar[DatasetTags] = _tags(PER_CLASS * len(ARTICULATED), len(ARTICULATED))
+    protocols: ClassVar[Mapping[str, Protocol]] = {
+        "McGillArticulated1": Protocol(10),
+        "McGillArticulated2": Protocol(16),
+    }
+    classes: ClassVar[tuple[str, ...]] = ARTICULATED
+
+
+class McGill19(McGillDataset):
+    """All 19 classes and all 452 distinct shapes, 11 to 31 a class."""
+
+    summary: ClassVar[str] = "McGill benchmark whole: 452 volumes in 19 classes"
+    tags: ClassVar[DatasetTags] = _tags(452, 19)
+    protocols: ClassVar[Mapping[str, Protocol]] = {"McGill19": Protocol(0.5)}
+
+    def _choose(self, label: str, ids: list[str]) -> list[str]:
+        return ids
+
+
+def _members(root: Path) -> Mapping[str, str]:
+    """Find the archive's member of every identifier."""
+    return _by_id(tuple(read_members(root / ARCHIVE, SHA256, SUFFIX)))
+
+
+@lru_cache(maxsize=2)
+def _by_id(members: tuple[str, ...]) -> Mapping[str, str]:
+    paths = {PurePosixPath(name.removesuffix(SUFFIX)): name for name in members}
+    return {f"{path.parent.name}-{path.name}": name for path, name in paths.items()}
+
+
+def _read_voxels(content: bytes) -> NDArray[np.uint8]:
+    """Read a volume in KUIM's format: a header of 1024 bytes, then the voxels, x fastest.
+
+    Byte 4 of the header is the type of the voxels, bytes 6 to 11 are the three dimensions.
+    """
+    kind, x, y, z = struct.unpack_from("<Bx3h", content, 4)
+    voxels = np.frombuffer(content, VOXELS[kind], offset=HEADER)
+    return (voxels.reshape((x, y, z), order="F") > 0).astype(np.uint8)
