@@ -14,9 +14,13 @@ include: "workflow/rules/learn.smk"
 include: "workflow/rules/baselines.smk"
 include: "workflow/rules/evaluate.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/figures.smk"
 
 
 rule all:
     default_target: True
     input:
         "results/table1.csv",
+        "results/table_distortion.csv",
+        "results/table_reconstruction.csv",
+        "results/figure7.png",

@@ -141,9 +141,9 @@ def as_markdown(
         "δh·A is sphere area minus mesh area of a triangle, both surfaces scaled to 4π; its "
         "variance is taken over all triangles, and over those of each shape (mean / median of the "
         "shapes). It falls with the number of faces: compare it within a table only. r is sphere "
-        "area over mesh area; its standard deviations, median / worst of the shapes, are over faces, "
-        "over faces weighted by their area, and over vertices. Seconds are those of a processor, "
-        "the median of the shapes.",
+        "area over mesh area; its standard deviations, median / worst of the shapes, are over "
+        "faces, over faces weighted by their area, and over vertices. Seconds are those of a "
+        "processor, the median of the shapes.",
     ]
     for database in dict.fromkeys(row.database for row in rows):
         lines += ["", f"## {literal(database)}", "", *_section(database, rows, in_paper, reference)]

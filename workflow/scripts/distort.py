@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 from gipkg.evaluation.distortion import distortion
 from gipkg.evaluation.histogram import area_histogram, bin_edges
 from gipkg.files import read_csv, write_csv
@@ -21,14 +22,14 @@ shapes = [
     for shape_id, reason in maps.failures.items()
 ]
 edges = bin_edges()
-counts = 0
+counts = np.zeros(len(edges) - 1, dtype=int)
 for shape_id in progress(maps.ids, "distortion"):
     measured = distortion(maps[shape_id])
-    counts = counts + area_histogram(measured)
+    counts += area_histogram(measured)
     report = maps.report(shape_id)
     shapes.append(MappedShape.mapped(shape_id, report, measured, seconds[shape_id]))
 
 write_shapes(Path(snakemake.output.shapes), sorted(shapes, key=lambda shape: shape.id))
-bins = zip(edges[:-1], edges[1:], counts, strict=True) if maps.ids else ()
+bins = zip(edges[:-1], edges[1:], counts, strict=True)
 rows = [(f"{low:.4f}", f"{high:.4f}", count) for low, high, count in bins]
 write_csv(Path(snakemake.output.histogram), ("from", "to", "triangles"), rows)
