@@ -28,11 +28,17 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
     "parametrizer": {
         "authalic": "gipkg.parametrizers.authalic:Authalic",
         "conformal": "gipkg.parametrizers.conformal:Conformal",
+        "spharm": "gipkg.parametrizers.spharm:Spharm",
     },
     "descriptor": {
+        "curvature": "gipkg.descriptors.curvature:Curvature",
         "hks": "gipkg.descriptors.hks:HeatKernelSignature",
+        "si-hks": "gipkg.descriptors.si_hks:ScaleInvariantHKS",
+        "wks": "gipkg.descriptors.wks:WaveKernelSignature",
     },
     "baseline": {
+        "hks-wks": "gipkg.baselines.hks_wks:SignatureQuantiles",
+        "shape-google": "gipkg.baselines.shape_google:ShapeGoogle",
         "shapedna": "gipkg.baselines.shapedna:ShapeDNA",
         "zernike": "gipkg.baselines.zernike:Zernike",
     },

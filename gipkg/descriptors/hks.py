@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from gipkg.api import Descriptor, DescriptorTags
+from gipkg.descriptors.modes import modes_at_unit_area
 
 if TYPE_CHECKING:
     import trimesh
@@ -33,17 +34,21 @@ class HeatKernelSignature(Descriptor):
         intrinsic=True, rigid_invariant=True, scale_invariant=True
     )
 
-    times: int = Field(5, ge=1, le=100, description="Number of times, one channel each")
+    times: int = Field(default=5, ge=1, le=100, description="Number of times, one channel each")
     # Earlier than 0.007, heat is finer than a mesh of 250 vertices and 120 eigenpairs resolve;
     # later than 0.2, little but the first mode is left. Best of such ranges on TOSCA's shapes.
     shortest: float = Field(
-        0.007, gt=0, description="First time, in units of the surface area (of 1 / eigenvalue)"
+        default=0.007,
+        gt=0,
+        description="First time, in units of the surface area (of 1 / eigenvalue)",
     )
     longest: float = Field(
-        0.2, gt=0, description="Last time, in the same units; the times between are logarithmic"
+        default=0.2,
+        gt=0,
+        description="Last time, in the same units; the times between are logarithmic",
     )
     logarithm: bool = Field(
-        True, description="Logarithm of the signature; false gives it raw, as in the paper"
+        default=True, description="Logarithm of the signature; false gives it raw, as in the paper"
     )
 
     @model_validator(mode="after")
@@ -63,10 +68,6 @@ class HeatKernelSignature(Descriptor):
 
     def describe(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
         """Sum the eigenpairs of `operators`; (V, C), at least 0 (log) or 1 (raw) everywhere."""
-        spectrum = operators.spectrum
-        area = spectrum.mass.sum()
-        # The truncation may cut an eigenspace in two, and a part of one depends on the basis.
-        whole = spectrum.eigenvalues < spectrum.eigenvalues[-1] * (1 - 1e-8)
-        decay = np.exp(-area * np.outer(spectrum.eigenvalues[whole], self.schedule()))
-        signature = area * spectrum.eigenvectors[:, whole] ** 2 @ decay
+        eigenvalues, squares = modes_at_unit_area(operators.spectrum)
+        signature = squares @ np.exp(-np.outer(eigenvalues, self.schedule()))
         return np.log(signature) if self.logarithm else signature

@@ -1,0 +1,33 @@
+"""The modes of a surface of unit area, as signatures of its points sum them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from gipkg.descriptors.operators import Spectrum
+
+SAME_EIGENVALUE = 1e-8
+"""Relative difference up to which eigenvalues are one."""
+
+
+def modes_at_unit_area(spectrum: Spectrum) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Scale the eigenpairs to unit area, whole eigenspaces only.
+
+    The truncation may cut the last eigenspace in two, and a part of one depends on the basis.
+
+    Returns
+    -------
+    eigenvalues : (k,) float64 array
+        Ascending from 0.
+    squares : (V, k) float64 array
+        Squared eigenfunctions; their mean over the surface is 1. Summed over an eigenspace,
+        they do not depend on its basis.
+    """
+    last = spectrum.eigenvalues[-1]
+    whole = spectrum.eigenvalues < last * (1 - SAME_EIGENVALUE)
+    area = spectrum.mass.sum()
+    return area * spectrum.eigenvalues[whole], area * spectrum.eigenvectors[:, whole] ** 2
