@@ -45,7 +45,7 @@ class ScaleInvariantHKS(Descriptor):
         default=16, ge=2, le=64, description="Times for each doubling of the time"
     )
     shortest: float = Field(
-        default=2.0**-14,
+        default=2.0**-7,
         gt=0,
         description="First time, in units of the surface area (of 1 / eigenvalue)",
     )
