@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gipkg.errors import DamagedFileError
+from gipkg.files import read_csv
 from gipkg.shards import Arrays, Shard, content_key, join, map_shard, shard_of
 
 HOSTILE = [
@@ -222,3 +223,34 @@ def test_shards_are_even_and_fixed() -> None:
     counts = np.bincount([shard_of(f"T{i}", 8) for i in range(4000)], minlength=8)
     assert (np.abs(counts - 500) < 100).all()
     assert [shard_of(f"T{i}", 8) for i in range(6)] == [1, 5, 2, 3, 4, 3]
+
+
+def test_what_each_shape_took_outlasts_a_run_that_was_stopped(tmp_path: Path) -> None:
+    out, work, seconds = tmp_path / "out.npz", tmp_path / "work", tmp_path / "seconds.csv"
+    compute = Computed()
+
+    def stopped(shape_id: str) -> Arrays:
+        if shape_id == "c":
+            raise OSError("the disk is full")
+        return compute(shape_id)
+
+    with pytest.raises(OSError, match="the disk"):
+        map_shard("abc", stopped, out, work, "first", key="k", seconds=seconds)
+    assert not seconds.exists()
+    kept = {path.name: path.read_text() for path in work.rglob("*.seconds")}
+    assert len(kept) == 2
+    map_shard(["a", "b", "bad", "c"], compute, out, work, "again", key="k", seconds=seconds)
+    rows = read_csv(seconds)
+    # What failed has no time, and what was done is not done again.
+    assert [row["id"] for row in rows] == ["a", "b", "c"]
+    assert {row["seconds"] for row in rows} >= set(kept.values())
+    assert all(float(row["seconds"]) >= 0 for row in rows)
+    assert compute.ids == ["a", "b", "bad", "c"]
+    assert not work.exists()
+
+
+def test_times_leave_the_shard_as_it_is(tmp_path: Path) -> None:
+    plain, timed = tmp_path / "plain.npz", tmp_path / "timed.npz"
+    map_shard("ab", Computed(), plain, tmp_path / "w", "plain", key="k")
+    map_shard("ab", Computed(), timed, tmp_path / "w", "timed", key="k", seconds=tmp_path / "s")
+    assert timed.read_bytes() == plain.read_bytes()

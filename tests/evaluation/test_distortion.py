@@ -31,6 +31,9 @@ def test_figures_follow_their_definitions_and_ignore_the_scale_of_the_mesh() -> 
     incident = [(small.faces == v).any(axis=1) for v in range(len(small.vertices))]
     ratio = [measured.spherical_areas[i].sum() / expected[i].sum() for i in incident]
     assert measured.vertex_std == pytest.approx(np.std(ratio))
+    squares = (measured.spherical_areas / expected - 1) ** 2
+    share = expected / (4 * np.pi)
+    assert measured.weighted_face_std == pytest.approx(np.sqrt(share @ squares))
     assert scaled.face_std == pytest.approx(measured.face_std)
     assert scaled.variance == pytest.approx(measured.variance)
 

@@ -160,8 +160,8 @@ def _draw_label(cell: Axes, database: str) -> None:
 def _draw_histogram(cell: Axes, counts: NDArray[np.int64], variance: float) -> None:
     shares = counts / max(counts.sum(), 1)
     cell.stairs(shares, bin_edges(), fill=True, color=category(1))
-    cell.set_yscale("log")
     cell.set_ylim(1e-6, 20)
+    cell.set_yscale("log")
     cell.set_xlim(-LIMIT, LIMIT)
     cell.set_xticks([-1, 0, 1])
     cell.tick_params(labelsize=7, labelleft=False, colors=INK)
