@@ -96,8 +96,9 @@ def _crop(volume: Volume) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     solid = values > volume.level
     if not solid.any():
         raise UnsupportedMesh(f"the volume has no value above its level of {volume.level}")
-    # The outside may be missing where the solid fills the whole array.
-    empty = min(float(values.min()), volume.level - 1)
+    least, greatest = float(values.min()), float(values.max())
+    # A solid that fills its array has no value of the outside: the greatest one is mirrored.
+    empty = least if least <= volume.level else 2 * volume.level - greatest
     padded = np.pad(values.astype(np.float32), MARGIN, constant_values=empty)
     box = ndimage.find_objects(np.pad(solid, MARGIN).view(np.uint8))[0]
     cut = tuple(slice(side.start - MARGIN, side.stop + MARGIN) for side in box)

@@ -96,15 +96,18 @@ def _march(solid, depth, tetrahedra, count, edges):  # type: ignore[no-untyped-d
     """Gather the triangles of all cubes; crossed edges are known by lower voxel and step."""
     nx, ny, nz = solid.shape
     start = np.zeros(solid.shape, np.int32)
-    total = 0
+    total = size = 0
     for x in range(nx - 1):
         for y in range(ny - 1):
             for z in range(nz - 1):
+                pattern = _pattern(solid, x, y, z)
                 start[x, y, z] = total
-                total += _crossed(_pattern(solid, x, y, z), 8)
+                total += _crossed(pattern, 8)
+                for t in range(6):
+                    size += count[t, _case(pattern, tetrahedra[t])]
     vertices = np.empty((total, 3))
     owner = np.empty(total, np.int64)
-    faces = np.empty((2 * total, 3), np.int64)
+    faces = np.empty((size, 3), np.int64)
     size = 0
     for x in range(nx - 1):
         for y in range(ny - 1):
@@ -114,9 +117,7 @@ def _march(solid, depth, tetrahedra, count, edges):  # type: ignore[no-untyped-d
                     continue
                 _place(solid, depth, x, y, z, pattern, start[x, y, z], vertices, owner)
                 for t in range(6):
-                    case = 0
-                    for i in range(4):
-                        case |= (pattern >> tetrahedra[t, i] & 1) << i
+                    case = _case(pattern, tetrahedra[t])
                     for n in range(count[t, case]):
                         for k in range(3):
                             low, high = edges[t, case, n, k]
@@ -124,7 +125,16 @@ def _march(solid, depth, tetrahedra, count, edges):  # type: ignore[no-untyped-d
                             local = _pattern(solid, a, b, c) if low else pattern
                             faces[size, k] = start[a, b, c] + _crossed(local, high ^ low)
                         size += 1
-    return vertices, owner, faces[:size]
+    return vertices, owner, faces
+
+
+@compiled
+def _case(pattern, tetrahedron):  # type: ignore[no-untyped-def]
+    """Return the solid corners of one tetrahedron of a cube, as bits."""
+    case = 0
+    for i in range(4):
+        case |= (pattern >> tetrahedron[i] & 1) << i
+    return case
 
 
 @compiled
