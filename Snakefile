@@ -23,4 +23,7 @@ rule all:
         "results/table1.csv",
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",
+        "results/figure2.png",
+        "results/figure3.png",
+        "results/figure4.png",
         "results/figure7.png",

@@ -11,7 +11,18 @@ from typing import Any
 
 import gipkg
 
-LIBRARIES = ("numpy", "scipy", "numba", "trimesh", "scikit-learn", "torch", "snakemake")
+LIBRARIES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "trimesh",
+    "scikit-learn",
+    "torch",
+    "snakemake",
+    "matplotlib",
+    "pyvista",
+    "vtk",
+)
 """The libraries whose version may show in a number."""
 
 

@@ -15,7 +15,7 @@ from gipkg.surfaces.validation import face_areas
 AREA = 0.02
 """Share of the surface's area that counts as one tip."""
 
-_REACH = 0.2
+_REACH = 0.25
 """Within this share of the largest distance from the middle, a tip is the farthest point."""
 _SLENDER = 0.6
 """Around a tip, the surface within reach has less than this share of a flat disc's area."""

@@ -129,6 +129,16 @@ def chosen_databases(key, asked, suits):
     return found or [name for name in plugins if name not in real]
 
 
+def chosen_subject():
+    """Return the database and shape of Figures 2 to 4: the first whose database is at hand."""
+    for number, subject in enumerate(config["figures"]["shapes"]):
+        key = f"figures.shapes.{number}.database"
+        require_defined(key, subject["database"], "datasets")
+        if dataset_plugin(subject["database"]).available(Path(config["data_root"])):
+            return subject
+    raise WorkflowError("configuration, figures.shapes: none of the databases is at hand")
+
+
 def dataset_plugin(name):
     spec = instance("dataset", name)
     return registry.create("dataset", spec["plugin"], spec["parameters"])
@@ -209,14 +219,21 @@ for name, protocols in PROTOCOLS.items():
         )
 for name in config["reconstruction"]["parametrizers"]:
     require_defined("reconstruction.parametrizers", name, "parametrizers")
+SUBJECT = chosen_subject()
+for figure in ("figure2", "figure3", "figure4"):
+    for name in config["figures"][figure]["parametrizers"]:
+        require_defined(f"figures.{figure}.parametrizers", name, "parametrizers")
 
-DATASETS = instances("dataset", (*DATABASES, *MAPPED))
+DATASETS = instances("dataset", (*DATABASES, *MAPPED, SUBJECT["database"]))
 PARAMETRIZERS = instances(
     "parametrizer",
     (
         *(COLUMNS[name]["parametrizer"] for name in LEARNED),
         *METHODS,
         *config["reconstruction"]["parametrizers"],
+        *config["figures"]["figure2"]["parametrizers"],
+        *config["figures"]["figure3"]["parametrizers"],
+        *config["figures"]["figure4"]["parametrizers"],
     ),
 )
 DESCRIPTORS = instances(

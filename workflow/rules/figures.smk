@@ -1,3 +1,79 @@
+from gipkg.shards import shard_of
+
+SUBJECT_SHARD = shard_of(SUBJECT["shape"], config["datasets"][SUBJECT["database"]]["shards"])
+SUBJECT_SURFACES = f"results/surfaces/{SUBJECT['database']}/{SUBJECT_SHARD}.npz"
+
+
+def figure_params(figure):
+    """Return what the script of one of Figures 2 to 4 depends on beside its input."""
+    chosen = config["figures"][figure]
+    return {
+        "config": chosen,
+        "plugins": {
+            "dataset": picked(DATASETS, [SUBJECT["database"]]),
+            "parametrizer": picked(PARAMETRIZERS, chosen["parametrizers"]),
+        },
+        "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),
+    }
+
+
+rule figure2:
+    input:
+        SUBJECT_SURFACES,
+    output:
+        png="results/figure2.png",
+        csv="results/figure2.csv",
+        provenance="results/figure2.json",
+    log:
+        "results/logs/figure2.log",
+    conda:
+        "../../environment.yml"
+    params:
+        shape=SUBJECT["shape"],
+        size=config["figures"]["size"],
+        **figure_params("figure2"),
+    script:
+        "../scripts/figure2.py"
+
+
+rule figure3:
+    input:
+        SUBJECT_SURFACES,
+    output:
+        png="results/figure3.png",
+        csv="results/figure3.csv",
+        provenance="results/figure3.json",
+    log:
+        "results/logs/figure3.log",
+    conda:
+        "../../environment.yml"
+    params:
+        shape=SUBJECT["shape"],
+        size=config["figures"]["size"],
+        **figure_params("figure3"),
+    script:
+        "../scripts/figure3.py"
+
+
+rule figure4:
+    input:
+        SUBJECT_SURFACES,
+    output:
+        png="results/figure4.png",
+        csv="results/figure4.csv",
+        provenance="results/figure4.json",
+    log:
+        "results/logs/figure4.log",
+    conda:
+        "../../environment.yml"
+    params:
+        shape=SUBJECT["shape"],
+        size=config["figures"]["size"],
+        **figure_params("figure4"),
+    script:
+        "../scripts/figure4.py"
+
+
 rule figure7:
     input:
         shapes=f"results/datasets/{MAPPED[0]}/shapes.csv",

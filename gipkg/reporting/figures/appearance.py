@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
@@ -18,8 +18,14 @@ from gipkg.reporting.colours import category
 from gipkg.reporting.rendering import NEUTRAL
 from gipkg.reporting.tips import Tips, vertex_areas
 
-FRONT = camera_on(np.array([[-1, -1, -1], [1, 1, 1]]), [0, 0, 1], [0, 1, 0])
-BACK = camera_on(np.array([[-1, -1, -1], [1, 1, 1]]), [0, 0, -1], [0, 1, 0])
+
+def sphere_camera(towards_eye: ArrayLike) -> Camera:
+    """Look at the whole unit sphere, y upward."""
+    axes = np.vstack([np.eye(3), -np.eye(3)])
+    return replace(camera_on(axes, towards_eye, up=[0, 1, 0]), half_height=1.08)
+
+
+FRONT, BACK = sphere_camera([0, 0, 1]), sphere_camera([0, 0, -1])
 """Two sides of the unit sphere."""
 
 
@@ -40,7 +46,7 @@ def shaded(
     """
     light = camera.towards_eye + 0.5 * camera.up
     facing = np.asarray(mesh.vertex_normals) @ (light / np.linalg.norm(light))
-    return colours * (0.75 + 0.25 * facing[:, None])
+    return colours * (0.8 + 0.2 * facing[:, None])
 
 
 @dataclass(frozen=True, slots=True)
