@@ -29,9 +29,9 @@ rule figure2:
     conda:
         "../../environment.yml"
     params:
+        **figure_params("figure2"),
         shape=SUBJECT["shape"],
         size=config["figures"]["size"],
-        **figure_params("figure2"),
     script:
         "../scripts/figure2.py"
 
@@ -48,9 +48,9 @@ rule figure3:
     conda:
         "../../environment.yml"
     params:
+        **figure_params("figure3"),
         shape=SUBJECT["shape"],
         size=config["figures"]["size"],
-        **figure_params("figure3"),
     script:
         "../scripts/figure3.py"
 
@@ -67,9 +67,9 @@ rule figure4:
     conda:
         "../../environment.yml"
     params:
+        **figure_params("figure4"),
         shape=SUBJECT["shape"],
         size=config["figures"]["size"],
-        **figure_params("figure4"),
     script:
         "../scripts/figure4.py"
 
