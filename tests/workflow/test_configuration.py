@@ -31,6 +31,20 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
             {"columns": [{"column": "A b", **LEARNED}, {"column": "a-B", **LEARNED}]},
             ["columns.1", "'a-b' names two columns"],
         ),
+        ({"databases": ["tosca"]}, ["databases", "'tosca' has no protocol"]),
+        (
+            {"distortion": {"methods": [{"parametrizer": "authalik"}]}},
+            ["distortion.methods.0.parametrizer", "did you mean 'authalic'"],
+        ),
+        (
+            {"reconstruction": {"parametrizers": ["conformall"]}},
+            ["reconstruction.parametrizers", "did you mean 'conformal'"],
+        ),
+        (
+            {"datasets": {"tosca": {"plugin": "tosca", "shards": 1, "classes": ["dogs"]}}}
+            | {"distortion": {"databases": ["tosca"]}},
+            ["datasets.tosca", "did you mean 'dog'"],
+        ),
         (
             {"parametrizers": {"authalic": {"plugin": "authalik"}}},
             ["parametrizers.authalic", "did you mean 'authalic'", "conformal"],
@@ -80,6 +94,19 @@ def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None
     done = Workdir(tmp_path).run("--dry-run", config=config)
     assert "results/evaluation/shrec11/ours/SHREC2.json" in done.stdout
     assert "results/evaluation/articulated" not in done.stdout
+
+
+def test_what_is_there_to_be_mapped_is_not_classified(tmp_path: Path, data_root: Path) -> None:
+    config = {
+        "databases": "auto",
+        "distortion": {"databases": "auto"},
+        "data_root": str(data_root),
+    }
+    done = Workdir(tmp_path).run("--dry-run", config=config)
+    assert "results/distortion/tosca/authalic.csv" in done.stdout
+    assert "results/distortion/tosca-highres/conformal.csv" in done.stdout
+    assert "results/distortion/shrec11" not in done.stdout
+    assert "results/evaluation/tosca" not in done.stdout
 
 
 def test_the_variant_as_in_the_paper_can_be_chosen(tmp_path: Path) -> None:

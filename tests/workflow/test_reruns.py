@@ -37,6 +37,8 @@ class Extent(VectorBaseline):
         return (extent / extent[-1]) ** self.power
 '''
 
+AFTER_MAPS = {"table_distortion": 1, "table_reconstruction": 1, "figure7": 1}
+
 
 def test_a_descriptors_parameter_leaves_maps_and_baselines_alone(smoke: Workdir) -> None:
     planned = smoke.planned({"descriptors": {"hks": {"plugin": "hks", "times": 7}}})
@@ -47,7 +49,15 @@ def test_a_parametrizers_parameter_touches_one_column(smoke: Workdir) -> None:
     changed = {"authalic": {"plugin": "authalic", "max_iterations": 7}}
     planned = smoke.planned({"parametrizers": changed})
     one_column = {"complete": 1, "learn": 2, "evaluate": 1, "table1": 1, "all": 1}
-    assert planned == {"parametrize": 2, "images": 2, **one_column}
+    of_the_map = {"distort": 1, "reconstruct": 1, **AFTER_MAPS}
+    assert planned == {"parametrize": 2, "images": 2, **of_the_map, **one_column}
+
+
+def test_another_way_to_measure_distortion_maps_nothing_again(smoke: Workdir) -> None:
+    planned = smoke.planned({"reconstruction": {"sizes": [16]}})
+    assert planned == {"reconstruct": 2, "table_reconstruction": 1, "all": 1}
+    planned = smoke.planned({"distortion": {"methods": [{"parametrizer": "conformal"}]}})
+    assert planned == {"table_distortion": 1, "figure7": 1, "all": 1}
 
 
 def test_another_seed_adds_its_splits_and_nothing_else(smoke: Workdir) -> None:
@@ -60,15 +70,15 @@ def test_the_failures_allowed_do_not_train_again(smoke: Workdir) -> None:
     assert smoke.planned({"max_failures": 0}) == {"complete": 4, "table1": 1, "all": 1}
 
 
-TABLE = {"table1": 1, "all": 1}
+TABLES = {"table1": 1, "table_distortion": 1, "all": 1}
 """Jobs that read a file of the checkout itself, which lies elsewhere in a copy of it."""
 
 
 @pytest.mark.parametrize(
     ("addition", "expected"),
     [
-        ("\n# A remark changes nothing.\n", TABLE),
-        ("\nEDITED = 1\n", {"images": 4, **AFTER_IMAGES}),
+        ("\n# A remark changes nothing.\n", TABLES),
+        ("\nEDITED = 1\n", {"images": 4, **AFTER_IMAGES, "reconstruct": 2, **AFTER_MAPS}),
     ],
 )
 def test_an_edited_module_reruns_what_it_computes(

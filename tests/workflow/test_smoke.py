@@ -41,6 +41,45 @@ def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
         assert images.dtype == np.float32
 
 
+def read(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_the_distortion_of_every_shape_is_said(smoke: Workdir) -> None:
+    results = smoke.path / "results"
+    rows = {row["parametrizer"]: row for row in read(results / "table_distortion.csv")}
+    assert list(rows) == ["authalic", "conformal"]
+    for method, row in rows.items():
+        shapes = read(results / f"distortion/tiny/{method}.csv")
+        assert len(shapes) == int(row["shapes"]) == 40
+        assert {shape["flips"] for shape in shapes} == {row["flips"]} == {"0"}
+        assert {float(shape["degree"]) for shape in shapes} == {1}
+        assert min(float(shape["seconds"]) for shape in shapes) > 0
+        repaired = [shape["surface"] for shape in shapes if shape["surface"] != "as it was"]
+        assert any("cut handles" in steps for steps in repaired)
+        bins = read(results / f"distortion/tiny/{method}.histogram.csv")
+        faces = sum(int(shape["faces"]) for shape in shapes)
+        assert sum(int(one["triangles"]) for one in bins) == faces
+    assert float(rows["authalic"]["variance"]) < float(rows["conformal"]["variance"]) / 10
+
+
+def test_images_of_equal_areas_keep_more_of_a_shape(smoke: Workdir) -> None:
+    rows = read(smoke.path / "results/table_reconstruction.csv")
+    assert [int(row["size"]) for row in rows] == [16, 32, 16, 32]
+    for row in rows:
+        for figure in ("hausdorff", "mean"):
+            assert 0 < float(row[f"authalic {figure}"]) < float(row[f"conformal {figure}"])
+    # Figure 7 shows the same shapes through images of the larger size.
+    shown = {
+        (row["shape"], row["parametrizer"]): row["hausdorff"]
+        for row in read(smoke.path / "results/figure7_shapes.csv")
+    }
+    for row in rows[1::2]:
+        for method in ("authalic", "conformal"):
+            assert shown[row["shape"], method] == row[f"{method} hausdorff"]
+
+
 def test_unfinished_work_is_gone(smoke: Workdir) -> None:
     names = [path.name for path in (smoke.path / "results").rglob("*")]
     assert not [name for name in names if name.endswith((".work", ".pt", ".part"))]
