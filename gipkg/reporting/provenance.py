@@ -16,6 +16,8 @@ LIBRARIES = (
     "scipy",
     "numba",
     "trimesh",
+    "libigl",
+    "cholespy",
     "scikit-learn",
     "torch",
     "snakemake",
