@@ -55,7 +55,7 @@ def volume_surface(
         Largest number of vertices, at least 4.
     components : {"largest", "joined"}
         Keep the largest component, or join all of them by strands where they come closest.
-        Components that touch only across the shorter diagonals of voxels count as apart.
+        Voxels are connected as in :mod:`gipkg.surfaces.volumes.lattice`.
     smallest_part : float
         Least share of the voxels that the largest component must have, if it alone is kept.
 
@@ -88,7 +88,7 @@ def volume_surface(
 
 def _crop(volume: Volume) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     """Cut out the solid with a margin; return also the first voxel of the cut."""
-    values = np.asarray(volume.values)
+    values = np.asarray(volume.values, np.float32)
     if values.ndim != 3:
         raise UnsupportedMesh(f"the volume has {values.ndim} axes; it takes three")
     if not np.isfinite(values).all():
@@ -99,7 +99,7 @@ def _crop(volume: Volume) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     least, greatest = float(values.min()), float(values.max())
     # A solid that fills its array has no value of the outside: the greatest one is mirrored.
     empty = least if least <= volume.level else 2 * volume.level - greatest
-    padded = np.pad(values.astype(np.float32), MARGIN, constant_values=empty)
+    padded = np.pad(values, MARGIN, constant_values=empty)
     box = ndimage.find_objects(np.pad(solid, MARGIN).view(np.uint8))[0]
     cut = tuple(slice(side.start - MARGIN, side.stop + MARGIN) for side in box)
     return padded[cut], np.array([side.start for side in cut]) - MARGIN

@@ -20,8 +20,6 @@ NEAREST = 0.1
 """Least distance of a surface vertex from a voxel, as a share of the lattice edge it is on:
 nearer, and the triangles around the voxel would have no area."""
 
-Quad = list[tuple[int, int]]
-
 
 def lattice_surface(
     solid: Solid, depth: NDArray[np.float32]
@@ -78,7 +76,7 @@ def _cases() -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     return tetrahedra, count, edges
 
 
-def _polygon(tetrahedron: list[int], pattern: int) -> Quad:
+def _polygon(tetrahedron: list[int], pattern: int) -> list[tuple[int, int]]:
     """Return the edges of a tetrahedron that the surface crosses, counterclockwise."""
     solid = [corner for i, corner in enumerate(tetrahedron) if pattern >> i & 1]
     empty = [corner for i, corner in enumerate(tetrahedron) if not pattern >> i & 1]
