@@ -27,7 +27,10 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 BUILTINS: Mapping[Kind, Mapping[str, str]] = {
     "parametrizer": {
         "authalic": "gipkg.parametrizers.authalic:Authalic",
+        "authalic-flow": "gipkg.parametrizers.authalic_flow:AuthalicFlow",
         "conformal": "gipkg.parametrizers.conformal:Conformal",
+        "optimal-transport": "gipkg.parametrizers.optimal_transport:OptimalTransport",
+        "penalty": "gipkg.parametrizers.penalty:Penalty",
         "spharm": "gipkg.parametrizers.spharm:Spharm",
     },
     "descriptor": {
@@ -38,6 +41,7 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
     },
     "baseline": {
         "hks-wks": "gipkg.baselines.hks_wks:SignatureQuantiles",
+        "lfd": "gipkg.baselines.light_field.baseline:LightField",
         "shape-google": "gipkg.baselines.shape_google:ShapeGoogle",
         "shapedna": "gipkg.baselines.shapedna:ShapeDNA",
         "zernike": "gipkg.baselines.zernike:Zernike",

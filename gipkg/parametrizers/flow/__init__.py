@@ -1,0 +1,1 @@
+"""Flows that even out areas: potentials on a surface, and vertices carried along gradients."""

@@ -1,0 +1,81 @@
+"""One iteration of the paper's flow (Section 3, steps 1 to 3)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gipkg.parametrizers.flow.linear_elements import LinearElements
+from gipkg.parametrizers.flow.poisson import Poisson
+from gipkg.parametrizers.flow.transfer import carry_all, carry_carefully, destinations
+from gipkg.parametrizers.sphere.areas import signed_spherical_areas
+from gipkg.surfaces.validation import face_areas
+
+
+class AreaFlow:
+    """What the iterations on one mesh share.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64 array
+        In any unit; scaled to a surface of area 4π.
+    faces : (F, 3) int64 array
+    rank : int, optional
+        Of the Laplacian's pseudo-inverse; exact if not given.
+    """
+
+    def __init__(
+        self, vertices: NDArray[np.float64], faces: NDArray[np.int64], rank: int | None = None
+    ) -> None:
+        scale = np.sqrt(4 * np.pi / face_areas(vertices, faces).sum())
+        self.elements = LinearElements(scale * vertices, faces)
+        self._poisson = Poisson(self.elements.stiffness(), rank)
+        self._areas = self.elements.at_vertices(self.elements.areas)
+        self._fans = np.argsort(faces.ravel(), kind="stable")
+        self._fan_starts = np.searchsorted(faces.ravel()[self._fans], np.arange(len(vertices) + 1))
+
+    def distortion(self, sphere: NDArray[np.float64]) -> float:
+        """Mean over the mesh of the squared δh of the faces."""
+        targets = self.elements.areas
+        areas = signed_spherical_areas(sphere, self.elements.faces)
+        return float(((areas - targets) ** 2 / targets).sum() / (4 * np.pi))
+
+    def advance(
+        self, sphere: NDArray[np.float64], *, step: float, integrated: bool, guard: bool
+    ) -> tuple[NDArray[np.float64], float]:
+        """Make one iteration.
+
+        Parameters
+        ----------
+        sphere : (V, 3) float64 array
+            Unit vectors; not changed.
+        step : float
+            ρ of equation 5.
+        integrated : bool
+            Right-hand side A_s - A instead of δh.
+        guard : bool
+            Let no face flip and no star grow more distorted.
+
+        Returns
+        -------
+        sphere : (V, 3) float64 array
+            Unit vectors.
+        moved : float
+            Share of the vertices that moved.
+        """
+        elements = self.elements
+        areas = elements.at_vertices(signed_spherical_areas(sphere, elements.faces))
+        excess = areas - self._areas
+        potential = self._poisson.solve(excess if integrated else excess / self._areas)
+        corners, rates = destinations(
+            elements.faces, elements.hats, elements.vertex_gradients(potential)
+        )
+        moved = sphere.copy()
+        if not guard:
+            carry_all(moved, elements.faces, corners, rates, step)
+            return moved, 1.0
+        count = carry_carefully(
+            moved, elements.faces, elements.areas, self._fan_starts, self._fans, corners, rates,
+            step,
+        )  # fmt: skip
+        return moved, count / len(moved)
