@@ -26,7 +26,7 @@ NEUTRAL = (0.78, 0.80, 0.83)
 _OVERSAMPLING = 2
 """Pixels drawn for one pixel of the picture, along each side: smooth edges on any driver."""
 
-_MATT: dict[str, Any] = {"ambient": 0.45, "diffuse": 0.6, "specular": 0.0}
+_MATT: dict[str, Any] = {"ambient": 0.55, "diffuse": 0.5, "specular": 0.0}
 """Light enough for colours to be read, shadow enough for the form."""
 
 

@@ -46,7 +46,7 @@ def shaded(
     """
     light = camera.towards_eye + 0.5 * camera.up
     facing = np.asarray(mesh.vertex_normals) @ (light / np.linalg.norm(light))
-    return colours * (0.8 + 0.2 * facing[:, None])
+    return colours * (0.75 + 0.25 * facing[:, None])
 
 
 @dataclass(frozen=True, slots=True)

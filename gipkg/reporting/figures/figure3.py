@@ -85,6 +85,11 @@ def record(name: str, parametrizer: Parametrizer, mesh: trimesh.Trimesh, shown: 
     shown : int
         How many iterations keep their sphere: the first, the last, and between them such that
         each is about the same multiple of the one before.
+
+    Raises
+    ------
+    ValueError
+        The method never called back.
     """
     steps: list[Step] = []
     spheres: list[NDArray[np.float64]] = []
@@ -95,6 +100,8 @@ def record(name: str, parametrizer: Parametrizer, mesh: trimesh.Trimesh, shown: 
         spheres.append(iteration.sphere.copy())
 
     parametrizer.parametrize(mesh, callback=keep)
+    if not steps:
+        raise ValueError(f"{name} reports no iterations: name a parametrizer tagged iterative")
     return Progress(steps, {index: spheres[index] for index in _spread(len(steps) - 1, shown)})
 
 
@@ -115,7 +122,7 @@ def _spread(last: int, count: int) -> list[int]:
     """Choose up to `count` of the numbers 0 to `last`, each a multiple of the one before."""
     if last < count:
         return list(range(last + 1))
-    return [0, *np.unique(np.rint(np.geomspace(1, last, count - 1)).astype(int)).tolist()]
+    return [0, *np.unique(np.rint(np.geomspace(last, 1, count - 1)).astype(int)).tolist()]
 
 
 def draw(mesh: trimesh.Trimesh, methods: Sequence[Progress], size: int) -> Figure:
@@ -186,7 +193,7 @@ def _draw_curves(figure: SubFigure, methods: Sequence[Progress]) -> None:
     axes.set_xscale("symlog", linthresh=1)
     axes.set_xlim(left=0)
     axes.set_xlabel("iteration")
-    axes.set_ylabel("variance over faces of sphere area − mesh area")
+    axes.set_ylabel("variance of δh·A over the faces")
     axes.xaxis.set_major_formatter("{x:g}")
     axes.grid(alpha=0.3)
     axes.spines[["top", "right"]].set_visible(False)

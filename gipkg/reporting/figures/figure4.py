@@ -26,7 +26,8 @@ from gipkg.reporting.figures.appearance import (
     sphere_camera,
 )
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
-from gipkg.reporting.rendering import Arrows, Lines, Part, Surface, render
+from gipkg.reporting.rendering import NEUTRAL, Arrows, Lines, Part, Surface, render
+from gipkg.reporting.tips import limb_tips
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
 
 _SIDE = 3.2
 """Width and height of a picture, in inches."""
+_TIP = category(6)
+"""Colour of the tips of limbs, unlike those of the four edges."""
 _NEARER = 0.25
 """Share of the first picture that the enlarged one shows."""
 _FROM_BEHIND = sphere_camera([0.3, -0.35, -0.9])
@@ -194,13 +197,14 @@ def _arrows(mesh: trimesh.Trimesh, restoring: Flow, camera: Camera) -> Arrows:
 def _draw_unfolding(row: Sequence[Axes], explanation: Explanation, size: int) -> None:
     unfolded = explanation.unfolded
     mesh = unfolded.mesh
-    colours = shaded(mesh, sequential(explanation.flow.potential), explanation.camera)
+    is_tip = limb_tips(mesh).region >= 0
+    colours = shaded(mesh, np.where(is_tip[:, None], _TIP, NEUTRAL), explanation.camera)
     grid = RoundSphere.of(unfolded)
     on_grid = grid.colours(colours)
     corners = octahedron.sphere_to_octahedron(pixel_directions(grid.SIZE))
     sphere: list[Part] = [Surface(grid.mesh(), on_grid), *_edge_lines(on_sphere=True)]
     solid: list[Part] = [Surface(grid.mesh(corners), on_grid), *_edge_lines(on_sphere=False)]
-    note = "seen from behind, where it is cut; colours are those of g"
+    note = "seen from behind, where it is cut"
     for axes, scene, title in ((row[0], sphere, "sphere"), (row[1], solid, "octahedron")):
         panel(axes, render(scene, _FROM_BEHIND, pixels(_SIDE, _SIDE)), title, note)
     note = "each side is one cut edge, folded at its middle"
