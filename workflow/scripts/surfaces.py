@@ -1,4 +1,4 @@
-"""Turn the meshes of one shard into closed genus-0 surfaces."""
+"""Turn the shapes of one shard into closed genus-0 surfaces."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ root = Path(snakemake.config["data_root"])
 
 
 def surface(shape_id: str) -> Arrays:
-    """Prepare one mesh of the database."""
+    """Prepare one mesh or volume of the database."""
     surface = prepare(dataset.load(root, shape_id))
     return {
         "vertices": np.asarray(surface.mesh.vertices),
