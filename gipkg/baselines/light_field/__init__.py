@@ -1,0 +1,1 @@
+"""Light-field descriptor: a shape as its silhouettes from all around."""
