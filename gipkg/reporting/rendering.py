@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable
 from ctypes.util import find_library
 from dataclasses import dataclass
+from functools import cache
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -226,6 +227,7 @@ def _rgb(colour: ArrayLike) -> tuple[float, ...]:
     return tuple(np.asarray(colour, dtype=np.float64))
 
 
+@cache
 def _pyvista() -> ModuleType:
     """Import PyVista, and see that VTK finds what it draws with: without, it would crash."""
     if sys.platform == "linux":
