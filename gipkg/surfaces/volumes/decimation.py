@@ -15,7 +15,8 @@ BATCH = 0.25
 """Share of the edges, the cheapest, that may collapse before costs are computed anew."""
 
 SLOWEST = 0.01
-"""Where fewer of the vertices leave in a round, faces may turn over from then on."""
+"""Where fewer of the vertices leave in a round, faces may turn over from then on, and where
+fewer still do, all edges are tried."""
 
 STEEPEST = 0.2
 """Least cosine between a face's normals before and after a collapse."""
@@ -27,7 +28,8 @@ def decimate(mesh: Triangles, size: int) -> Triangles:
     A collapse needs two neighbours that its ends share, and no more: then the surface stays
     what it is (T. K. Dey, H. Edelsbrunner, S. Guha, D. V. Nekhayev, Topology Preserving Edge
     Contraction, Publications de l'Institut Mathématique 66, 1999). A vertex is original where
-    at least half of the area that went into it is.
+    at least half of the area that went into it is. On a surface of genus 0 some edge can always
+    collapse (Steinitz); one with handles may end above `size`.
 
     Parameters
     ----------
@@ -48,12 +50,11 @@ def decimate(mesh: Triangles, size: int) -> Triangles:
     outgoing = np.zeros(len(points), np.int64)
     outgoing[origin] = np.arange(len(origin))
     alive = np.ones(len(faces), np.bool_)
-    left, turning = len(points), False
+    left, batch, turning = len(points), BATCH, False
     while left > size:
         costs, edges = _costs(points, quadrics, twin, origin, alive)
-        order = edges[np.argsort(costs, kind="stable")[: max(64, int(BATCH * len(edges)))]]
-        before = left
-        left -= _collapse_round(
+        order = edges[np.argsort(costs, kind="stable")[: max(64, int(batch * len(edges)))]]
+        done = _collapse_round(
             order,
             left - size,
             turning,
@@ -66,7 +67,11 @@ def decimate(mesh: Triangles, size: int) -> Triangles:
             outgoing,
             alive,
         )
-        turning = turning or before - left < SLOWEST * before
+        if done < SLOWEST * left:
+            if batch == 1 and not done:
+                break
+            batch, turning = 1 if turning else BATCH, True
+        left -= done
     corners = origin.reshape(-1, 3)[alive]
     return Triangles(points + centre, corners, original >= areas / 2).compact()
 

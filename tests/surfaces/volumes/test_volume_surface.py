@@ -226,6 +226,16 @@ def test_decimation_keeps_the_topology_to_the_last(mesh, euler):
     assert volume == pytest.approx(mesh.volume, rel=0.2)
 
 
+@pytest.mark.parametrize(("mesh", "least"), [(sphere(3), 4), (torus(), 7)])
+def test_decimation_ends_where_no_edge_can_collapse(mesh, least):
+    triangles = Triangles(mesh.vertices, np.asarray(mesh.faces), np.ones(len(mesh.vertices), bool))
+    fewer = decimate(triangles, 4)
+    found = trimesh.Trimesh(fewer.vertices, fewer.faces, process=False)
+    assert found.euler_number == mesh.euler_number
+    assert found.is_watertight
+    assert least <= len(fewer.vertices) <= 2 * least - 4
+
+
 def test_decimation_stays_on_the_surface_and_keeps_triangles_regular():
     mesh = sphere(5)
     fewer = decimate(Triangles(mesh.vertices, np.asarray(mesh.faces), mesh.vertices[:, 2] > 0), 500)
