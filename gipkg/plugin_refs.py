@@ -29,6 +29,7 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
         "authalic": "gipkg.parametrizers.authalic:Authalic",
         "authalic-flow": "gipkg.parametrizers.authalic_flow:AuthalicFlow",
         "conformal": "gipkg.parametrizers.conformal:Conformal",
+        "lie-advection": "gipkg.parametrizers.lie_advection:LieAdvection",
         "optimal-transport": "gipkg.parametrizers.optimal_transport:OptimalTransport",
         "penalty": "gipkg.parametrizers.penalty:Penalty",
         "spharm": "gipkg.parametrizers.spharm:Spharm",

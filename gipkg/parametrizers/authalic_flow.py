@@ -66,16 +66,21 @@ class AuthalicFlow(Parametrizer):
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.flow.authalic import AreaFlow
+        from gipkg.parametrizers.flow.objective import mean_square_distortion
         from gipkg.parametrizers.hierarchy.starts import start_map
         from gipkg.parametrizers.sphere.bijectivity import require_bijective
 
         check_genus_zero(mesh)
-        flow = AreaFlow(
-            np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64), self.rank
-        )
+        faces = np.asarray(mesh.faces, np.int64)
+        flow = AreaFlow(np.asarray(mesh.vertices, np.float64), faces, self.rank)
         sphere = start_map(mesh, self.start)
-        tell = callback or (lambda _: None)
-        tell(Iteration(0, sphere, flow.distortion(sphere), 0.0))
+
+        def tell(number: int, step: float) -> None:
+            if callback:
+                objective = mean_square_distortion(sphere, faces, flow.elements.areas)
+                callback(Iteration(number, sphere, objective, step))
+
+        tell(0, 0.0)
         for number in range(1, self.iterations + 1):
             sphere, moved = flow.advance(
                 sphere,
@@ -85,7 +90,7 @@ class AuthalicFlow(Parametrizer):
             )
             if not moved:
                 break
-            tell(Iteration(number, sphere, flow.distortion(sphere), moved))
+            tell(number, moved)
         if self.guard:
-            require_bijective(sphere, flow.elements.faces, "choose another start of the flow")
+            require_bijective(sphere, faces, "choose another start of the flow")
         return sphere

@@ -34,12 +34,6 @@ class AreaFlow:
         self._fans = np.argsort(faces.ravel(), kind="stable")
         self._fan_starts = np.searchsorted(faces.ravel()[self._fans], np.arange(len(vertices) + 1))
 
-    def distortion(self, sphere: NDArray[np.float64]) -> float:
-        """Mean over the mesh of the squared δh of the faces."""
-        targets = self.elements.areas
-        areas = signed_spherical_areas(sphere, self.elements.faces)
-        return float(((areas - targets) ** 2 / targets).sum() / (4 * np.pi))
-
     def advance(
         self, sphere: NDArray[np.float64], *, step: float, integrated: bool, guard: bool
     ) -> tuple[NDArray[np.float64], float]:
