@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gipkg.api import SphericalMap
+    from gipkg.api import SphericalMap, Volume
     from gipkg.descriptors import describe
     from gipkg.evaluation.distortion import distortion
     from gipkg.images import geometry_image, reconstruct
@@ -20,6 +20,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "SphericalMap",
+    "Volume",
     "__version__",
     "describe",
     "distortion",
@@ -31,6 +32,7 @@ __all__ = [
 
 _EXPORTS = {
     "SphericalMap": "gipkg.api",
+    "Volume": "gipkg.api",
     "describe": "gipkg.descriptors",
     "distortion": "gipkg.evaluation.distortion",
     "geometry_image": "gipkg.images",
