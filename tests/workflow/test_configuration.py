@@ -46,6 +46,19 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
             ["datasets.tosca", "did you mean 'dog'"],
         ),
         (
+            {"figures": {"shapes": [{"database": "tini", "shape": "hands-000"}]}},
+            ["figures.shapes.0.database", "did you mean 'tiny'"],
+        ),
+        (
+            {"figures": {"shapes": [{"database": "shrec11", "shape": "T280"}]}},
+            ["figures.shapes", "none of the databases is at hand"],
+        ),
+        (
+            {"figures": {"figure2": {"parametrizers": ["authalik"]}}},
+            ["figures.figure2.parametrizers", "did you mean 'authalic'"],
+        ),
+        ({"figures": {"figure4": {"parametrizers": ["authalic"]}}}, ["figure4", "too short"]),
+        (
             {"parametrizers": {"authalic": {"plugin": "authalik"}}},
             ["parametrizers.authalic", "did you mean 'authalic'", "conformal"],
         ),

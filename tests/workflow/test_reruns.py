@@ -37,6 +37,9 @@ class Extent(VectorBaseline):
         return (extent / extent[-1]) ** self.power
 '''
 
+DRAWN = {"figure2": 1, "figure3": 1, "figure4": 1}
+"""What shows one shape, and maps it by itself."""
+
 AFTER_MAPS = {"table_distortion": 1, "table_reconstruction": 1, "figure7": 1}
 
 
@@ -49,7 +52,7 @@ def test_a_parametrizers_parameter_touches_one_column(smoke: Workdir) -> None:
     changed = {"authalic": {"plugin": "authalic", "max_iterations": 7}}
     planned = smoke.planned({"parametrizers": changed})
     one_column = {"complete": 1, "learn": 2, "evaluate": 1, "table1": 1, "all": 1}
-    of_the_map = {"distort": 1, "reconstruct": 1, **AFTER_MAPS}
+    of_the_map = {"distort": 1, "reconstruct": 1, **AFTER_MAPS, **DRAWN}
     assert planned == {"parametrize": 2, "images": 2, **of_the_map, **one_column}
 
 
@@ -58,6 +61,12 @@ def test_another_way_to_measure_distortion_maps_nothing_again(smoke: Workdir) ->
     assert planned == {"reconstruct": 2, "table_reconstruction": 1, "all": 1}
     planned = smoke.planned({"distortion": {"methods": [{"parametrizer": "conformal"}]}})
     assert planned == {"table_distortion": 1, "figure7": 1, "all": 1}
+
+
+def test_another_shape_is_drawn_from_its_own_surface(smoke: Workdir) -> None:
+    planned = smoke.planned({"figures": {"shapes": [{"database": "tiny", "shape": "ants-001"}]}})
+    assert planned == {**DRAWN, "all": 1}
+    assert smoke.planned({"figures": {"figure3": {"shown": 3}}}) == {"figure3": 1, "all": 1}
 
 
 def test_another_seed_adds_its_splits_and_nothing_else(smoke: Workdir) -> None:
@@ -78,7 +87,7 @@ TABLES = {"table1": 1, "table_distortion": 1, "all": 1}
     ("addition", "expected"),
     [
         ("\n# A remark changes nothing.\n", TABLES),
-        ("\nEDITED = 1\n", {"images": 4, **AFTER_IMAGES, "reconstruct": 2, **AFTER_MAPS}),
+        ("\nEDITED = 1\n", {"images": 4, **AFTER_IMAGES, "reconstruct": 2, **AFTER_MAPS, **DRAWN}),
     ],
 )
 def test_an_edited_module_reruns_what_it_computes(
