@@ -48,7 +48,7 @@ class ShapeGoogle(Baseline):
         description="What describes a point: the heat kernel signature, logarithmic, or "
         "its scale-invariant form",
     )
-    words: int = Field(48, ge=2, le=1000, description="Size of the vocabulary")
+    words: int = Field(48, ge=2, le=200, description="Size of the vocabulary")
     spatially_sensitive: bool = Field(
         True, description="Count pairs of words that are said near each other, not single words"
     )
