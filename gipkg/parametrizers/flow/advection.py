@@ -91,7 +91,7 @@ def _locate(point, host, sphere, faces, twins, weights):  # type: ignore[no-unty
 
 @compiled
 def _side(p, q, r):  # type: ignore[no-untyped-def]
-    """Determinant of three unit vectors, from their differences; positive left of q to r."""
+    """Take the determinant of unit vectors, of their differences; positive left of q to r."""
     ax, ay, az = q[0] - p[0], q[1] - p[1], q[2] - p[2]
     bx, by, bz = r[0] - p[0], r[1] - p[1], r[2] - p[2]
     return p[0] * (ay * bz - az * by) + p[1] * (az * bx - ax * bz) + p[2] * (ax * by - ay * bx)

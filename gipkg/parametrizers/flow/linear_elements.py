@@ -20,6 +20,8 @@ class LinearElements:
 
     Attributes
     ----------
+    count : int
+        Number of vertices V.
     faces : (F, 3) int64 array
     hats : (F, 3, 3) float64 array
         Gradient on each face of the function that is 1 at a corner and 0 at the two others.
@@ -60,14 +62,8 @@ class LinearElements:
 
     def at_vertices(self, quantities: NDArray[np.float64]) -> NDArray[np.float64]:
         """Share what every face holds (F,) among its three corners equally: (V,)."""
-        return share_at_vertices(quantities, self.faces, self.count)
-
-
-def share_at_vertices(
-    quantities: NDArray[np.float64], faces: NDArray[np.int64], count: int
-) -> NDArray[np.float64]:
-    """Share what every face holds (F,) among its three corners equally: (count,)."""
-    return np.bincount(faces.ravel(), np.repeat(quantities / 3, 3), minlength=count)
+        shares = np.repeat(quantities / 3, 3)
+        return np.bincount(self.faces.ravel(), shares, minlength=self.count).astype(np.float64)
 
 
 @compiled

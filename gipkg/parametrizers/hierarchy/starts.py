@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 import trimesh
@@ -13,7 +13,6 @@ from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.surfaces.validation import face_areas
 
 Start = Literal["hierarchy", "uniform", "squeezed", "conformal"]
-STARTS: tuple[Start, ...] = get_args(Start)
 
 _SQUEEZE = np.array([1.0, 1.0, 1 / 3])
 """Makes areas at the poles of the sphere and at its equator differ by a factor of 27."""
@@ -46,7 +45,7 @@ def start_map(mesh: trimesh.Trimesh, start: Start) -> NDArray[np.float64]:
     if start == "conformal":
         from gipkg.parametrizers.conformal import Conformal
 
-        return Conformal().parametrize(mesh)
+        return Conformal.model_validate({}).parametrize(mesh)
     vertices = np.asarray(mesh.vertices, np.float64)
     faces = np.asarray(mesh.faces, np.int64)
     areas = np.ones(len(faces)) if start == "uniform" else face_areas(vertices, faces)

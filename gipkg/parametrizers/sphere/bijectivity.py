@@ -12,9 +12,7 @@ _DEGREE = 1e-9
 """Allowed deviation of the degree from 1."""
 
 
-def require_bijective(
-    sphere: NDArray[np.float64], faces: NDArray[np.int64], way_out: str
-) -> None:
+def require_bijective(sphere: NDArray[np.float64], faces: NDArray[np.int64], way_out: str) -> None:
     """Accept stored coordinates that map a closed mesh to the sphere one to one.
 
     Parameters
