@@ -162,7 +162,8 @@ def _section(
 ) -> list[str]:
     chosen = [row for row in rows if row.database == database]
     header = ["method", "shapes", "failed", "vertices", "var δh·A", "a shape", "*in the paper*"]
-    header += ["std r: faces", "weighted", "vertices", "flipped shapes", "flips", "seconds"]
+    header += ["std r: faces", "weighted", "vertices", "flipped shapes", "flips"]
+    header += ["degree not 1", "seconds"]
     lines = [_line(header), _line(["---"] * len(header))]
     for row in chosen:
         variance = row.spreads["variance"]
@@ -180,6 +181,7 @@ def _section(
                     *(_pair(row.spreads[name]) for name in _RATIOS),
                     str(row.flipped_shapes),
                     str(row.flips),
+                    str(row.other_degrees),
                     _number(row.spreads["seconds"].median, 3),
                 ]
             )

@@ -80,6 +80,56 @@ def test_images_of_equal_areas_keep_more_of_a_shape(smoke: Workdir) -> None:
             assert shown[row["shape"], method] == row[f"{method} hausdorff"]
 
 
+PICKY = """
+import numpy as np
+from gipkg.errors import ParametrizationError
+from gipkg.parametrizers.conformal import Conformal
+
+
+class Picky(Conformal):
+    def parametrize(self, mesh, callback=None):
+        sphere = super().parametrize(mesh, callback)
+        if len(mesh.vertices) % 2:
+            raise ParametrizationError("an odd number of vertices")
+        return np.abs(sphere)
+"""
+
+
+def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_path: Path) -> None:
+    workdir = smoke.copy(tmp_path)
+    (tmp_path / "picky.py").write_text(PICKY)
+    targets = [f"results/{name}" for name in ("table_distortion.csv", "table_reconstruction.csv")]
+    done = workdir.run(
+        *targets,
+        "results/figure7.png",
+        config={
+            "parametrizers": {"picky": {"plugin": "picky.py:Picky"}},
+            "distortion": {"methods": [{"parametrizer": "picky"}]},
+            "reconstruction": {"parametrizers": ["picky"]},
+        },
+    )
+    assert done.returncode == 0, done.stdout
+    shapes = read(tmp_path / "results/distortion/tiny/picky.csv")
+    assert len(shapes) == 40
+    (row,) = read(tmp_path / "results/table_distortion.csv")
+    failed = [shape for shape in shapes if shape["failure"]]
+    assert 0 < len(failed) == int(row["failures"]) == 40 - int(row["shapes"])
+    for shape in failed:
+        assert shape["failure"] == "ParametrizationError: an odd number of vertices"
+        assert int(shape["vertices"]) % 2
+        assert shape["face_std"] == shape["seconds"] == ""
+    # Folded onto an octant, a map covers nothing as often as it covers anything back.
+    assert int(row["flipped shapes"]) == int(row["other degrees"]) == int(row["shapes"])
+    note = (tmp_path / "results/table_distortion.md").read_text()
+    assert f"gives nothing for {len(failed)} shapes of `tiny`" in note
+    assert "`ParametrizationError: an odd number of vertices`" in note
+    distances = read(tmp_path / "results/table_reconstruction.csv")
+    assert {row["picky hausdorff"] for row in distances} == {""}
+    note = (tmp_path / "results/table_reconstruction.md").read_text()
+    assert "it is not a map of degree 1" in note
+    assert (tmp_path / "results/figure7.png").stat().st_size > 10_000
+
+
 def test_unfinished_work_is_gone(smoke: Workdir) -> None:
     names = [path.name for path in (smoke.path / "results").rglob("*")]
     assert not [name for name in names if name.endswith((".work", ".pt", ".part"))]

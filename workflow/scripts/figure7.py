@@ -25,7 +25,7 @@ maps = {
 }
 first = maps[params.methods[0]]
 listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(files.shapes))]
-surfaces = [shape for shape in listing if first.report(shape.id)]
+surfaces = [shape for shape in listing if shape.id in first.surfaces]
 panels = [
     figure7.reconstruct_panel(
         shape_id,

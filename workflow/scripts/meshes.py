@@ -30,6 +30,8 @@ class Maps:
     ----------
     ids : tuple of str
         The shapes that have a map, sorted.
+    surfaces : frozenset of str
+        The shapes that have a surface.
     failures : dict
         Identifier -> reason, of the shapes that have no map.
     """
@@ -41,6 +43,7 @@ class Maps:
         opened = [_open(path) for path in maps]
         self._maps = {shape_id: shard for shard in opened for shape_id in shard.ids}
         self.ids = tuple(sorted(self._maps))
+        self.surfaces = frozenset(self._surfaces)
         self.failures = {
             shape_id: reason for shard in opened for shape_id, reason in shard.failures.items()
         }
@@ -50,14 +53,12 @@ class Maps:
         shard = self._surfaces.get(shape_id)
         return None if shard is None else json.loads(str(shard[shape_id]["report"]))
 
-    def mesh(self, shape_id: str) -> trimesh.Trimesh | None:
-        """Return the surface of a shape; None where there is none."""
-        shard = self._surfaces.get(shape_id)
-        return None if shard is None else mesh_of(shard[shape_id])
+    def mesh(self, shape_id: str) -> trimesh.Trimesh:
+        """Return the surface of a shape."""
+        return mesh_of(self._surfaces[shape_id][shape_id])
 
     def __getitem__(self, shape_id: str) -> SphericalMap:
-        surface, sphere = self._surfaces[shape_id][shape_id], self._maps[shape_id][shape_id]
-        return SphericalMap(mesh_of(surface), sphere["sphere"])
+        return SphericalMap(self.mesh(shape_id), self._maps[shape_id][shape_id]["sphere"])
 
 
 def _open(path: str) -> Shard:
