@@ -13,12 +13,13 @@ from gipkg.api import Callback, Parametrizer, ParametrizerTags
 
 
 class Conformal(Parametrizer):
-    """Bijective spherical map of least angle distortion.
+    """Bijective spherical map of least angle distortion, its mass centre at the origin.
 
-    It minimises the conformal energy (Dirichlet energy over area) face by face. Limbs shrink
-    exponentially under a conformal map; a weak area term keeps them representable and takes the
-    place of Möbius centring: of the conformal maps, all of equal angle distortion, it picks the
-    one of least area distortion.
+    The publication descends the harmonic energy. On meshes with limbs that flips faces: a limb
+    shrinks exponentially, and thin or obtuse triangles turn over. Here the conformal energy
+    (Dirichlet energy over area) is minimised face by face; of smooth maps both energies have the
+    same minima, but this one is infinite at a flip. A weak area term keeps limbs representable.
+    At the end a Möbius transformation centres the map, as there.
     """
 
     summary: ClassVar[str] = "angle-preserving, bijective even where limbs shrink to nothing"
@@ -31,7 +32,7 @@ class Conformal(Parametrizer):
     )
 
     area_weight: float = Field(
-        2e-3,
+        1e-3,
         gt=0,
         le=1,
         description="weight of areas against angles; below 1e-3 thin limbs leave double precision",
@@ -45,9 +46,11 @@ class Conformal(Parametrizer):
         self, mesh: trimesh.Trimesh, callback: Callback | None = None
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
+        from gipkg.parametrizers.sphere.moebius import centred
         from gipkg.parametrizers.variational.optimal_map import least_distorted_map
+        from gipkg.surfaces.validation import face_areas
 
-        return least_distorted_map(
+        sphere = least_distorted_map(
             mesh,
             area_weight=self.area_weight,
             shape_weight=1.0,
@@ -55,3 +58,6 @@ class Conformal(Parametrizer):
             tolerance=self.tolerance,
             callback=callback,
         )
+        faces = np.asarray(mesh.faces, np.int64)
+        thirds = face_areas(np.asarray(mesh.vertices, np.float64), faces) / 3
+        return centred(sphere, faces, np.bincount(faces.ravel(), np.repeat(thirds, 3)))
