@@ -60,4 +60,5 @@ class Conformal(Parametrizer):
         )
         faces = np.asarray(mesh.faces, np.int64)
         thirds = face_areas(np.asarray(mesh.vertices, np.float64), faces) / 3
-        return centred(sphere, faces, np.bincount(faces.ravel(), np.repeat(thirds, 3)))
+        masses = np.asarray(np.bincount(faces.ravel(), np.repeat(thirds, 3)), np.float64)
+        return centred(sphere, faces, masses)
