@@ -44,3 +44,11 @@ def needle(segments: int = 60) -> trimesh.Trimesh:
         faces.append((len(vertices) - 2, (k + 1) % 6, k))
         faces.append((len(vertices) - 1, 6 * (segments - 1) + k, 6 * (segments - 1) + (k + 1) % 6))
     return trimesh.Trimesh(vertices, faces, process=False)
+
+
+def fibonacci(count: int) -> np.ndarray:
+    """Points on the unit sphere that each stand for about the same area."""
+    z = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.pi * (3 - np.sqrt(5)) * np.arange(count)
+    ring = np.sqrt(1 - z**2)
+    return np.column_stack((ring * np.cos(turn), ring * np.sin(turn), z))

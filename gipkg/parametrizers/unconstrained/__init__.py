@@ -1,0 +1,1 @@
+"""Spherical energies that need no constraint, and their minimisation."""
