@@ -23,6 +23,8 @@ CITATION = (
     "Springer 2008"
 )
 LICENCE = "academic use; cite the book"
+PACK = "tar --format=gnu --sort=name --owner=root:0 --group=root:0 --mtime=2026-01-01T00:00:00Z"
+"""How single files become the archive with the checksum below, bit by bit (GNU tar)."""
 CLASSES = ("cat", "centaur", "david", "dog", "gorilla", "horse", "michael", "victoria", "wolf")
 """The classes that both sets have."""
 
@@ -52,6 +54,9 @@ class Tosca(Dataset):
     )
     protocols: ClassVar[Mapping[str, Protocol]] = {}
     names: ClassVar[tuple[str, ...]] = (*CLASSES, "lioness", "seahorse", "shark")
+    packing: ClassVar[str] = (
+        f"{PACK} --mode=u=rwX,go=rX -cf - nonrigid3d/*.mat README_TOSCA_licence.txt | gzip -n"
+    )
 
     classes: tuple[str, ...] = Field((), description="Only these classes; all if none is named.")
 
@@ -81,8 +86,8 @@ class Tosca(Dataset):
         if not is_intact(path, sha256):
             raise DatasetNotFound(
                 f"{path.name} cannot be downloaded as one file. Its shapes are at "
-                f"{self.tags.source}; put the archive of them with the SHA-256 {sha256} in "
-                f"{path.parent}"
+                f"{self.tags.source}. Packed by\n  {self.packing} > {path.name}\nthey give the "
+                f"SHA-256 {sha256}; put the archive in {path.parent}"
             )
 
     def shapes(self, root: Path) -> tuple[Shape, ...]:
@@ -140,6 +145,7 @@ class ToscaHighResolution(Tosca):
         },
     )
     names: ClassVar[tuple[str, ...]] = CLASSES
+    packing: ClassVar[str] = f"{PACK} -cf - *.mat"
 
 
 def _read_surface(content: bytes) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

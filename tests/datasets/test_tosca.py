@@ -136,5 +136,11 @@ def test_fetch_says_where_the_shapes_are_and_where_they_belong(
     assert not dataset.available(tmp_path)
     with pytest.raises(DatasetNotFound) as caught:
         dataset.fetch(tmp_path)
-    for clue in (dataset.tags.source, str(tmp_path / "tosca"), Path(name).name, sha256):
+    for clue in (
+        dataset.tags.source,
+        dataset.packing,
+        str(tmp_path / "tosca"),
+        Path(name).name,
+        sha256,
+    ):
         assert clue in str(caught.value)
