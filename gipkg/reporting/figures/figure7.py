@@ -153,7 +153,9 @@ def _draw_shape(line: Sequence[Axes], shape: Panel) -> None:
 
 def _draw_label(cell: Axes, database: str) -> None:
     cell.axis("off")
-    text = f"{database}\n\nshare of the triangles\nby δh·A, in areas of\nthe mean triangle;\nthe outermost bins\nhold all beyond"
+    lines = ["share of the triangles", "by δh·A, in areas of", "the mean triangle;"]
+    lines += ["the outermost bins", "hold all beyond"]
+    text = "\n".join((database, "", *lines))
     cell.text(0, 0.5, text, va="center", fontsize=8, color=INK)
 
 
