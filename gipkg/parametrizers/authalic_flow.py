@@ -33,6 +33,8 @@ class AuthalicFlow(Parametrizer):
 
     The guarantees are those of `guard`: without it, faces flip, and the map is returned as it is.
     The paper's literal method is ``step=0.01, right_hand_side="ratio", rank=300, guard=False``.
+    Its right-hand side makes a step V / 4π times as long on V vertices of equal area: it does well
+    on a few hundred vertices, and overshoots and flips faces on some thousands.
     """
 
     summary: ClassVar[str] = "the paper's iteration: potential, gradient, barycentric transfer"
