@@ -130,6 +130,17 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
     assert (tmp_path / "results/figure7.png").stat().st_size > 10_000
 
 
+def test_every_training_left_its_seconds_among_the_timings(smoke: Workdir) -> None:
+    results = smoke.path / "results"
+    trained = [*results.glob("learning/tiny/*/Tiny1-*"), *results.glob("baselines/tiny/*/Tiny1-*")]
+    assert len(trained) == 8
+    for prediction in trained:
+        timing = results / "benchmarks" / prediction.relative_to(results).with_suffix(".json")
+        seconds = json.loads(timing.read_text())
+        assert seconds["cpu"] > 0
+        assert not seconds["resumed"]
+
+
 def test_unfinished_work_is_gone(smoke: Workdir) -> None:
     names = [path.name for path in (smoke.path / "results").rglob("*")]
     assert not [name for name in names if name.endswith((".work", ".pt", ".part"))]
