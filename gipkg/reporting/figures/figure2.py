@@ -128,10 +128,9 @@ def _draw_method(
     sphere = RoundSphere.of(shown.spherical_map)
     front, back, image, again = row
     whole, *tips = shown.parts
+    ball, on_ball, square = sphere.mesh(), sphere.colours(on_sphere), pixels(_ROW, _ROW)
     for axes, side in ((front, FRONT), (back, BACK)):
-        seen_there = sphere.colours(on_sphere)
-        square = pixels(_ROW, _ROW)
-        panel(axes, render_mesh(sphere.mesh(), colours=seen_there, camera=side, size=square))
+        panel(axes, render_mesh(ball, colours=on_ball, camera=side, size=square))
     panel(image, as_picture(shown.lookup.render(on_sphere)[0]))
     if tips:
         ratios = [tip.area_ratio for tip in tips]
