@@ -34,6 +34,10 @@ class ShapeGoogle(Baseline):
     the mean of θ over the surface. The spatially sensitive bag counts pairs of words by how near
     they are said, (∫∫ θ(x) θ(y)ᵀ K_t(x, y) dx dy), with the heat kernel K_t. The latter is what
     the paper compares with: its features are "1/50th the size", which is 48 to 48 x 48.
+
+    The original takes the heat kernel signature as it is, at times in units of the database's
+    coordinates. Here it is logarithmic, at times in units of the area, and every number of it is
+    standardised by the training points, so that all of them count alike.
     """
 
     summary: ClassVar[str] = "ShapeGoogle: bags of heat kernel words, spatially sensitive"

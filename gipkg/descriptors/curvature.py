@@ -69,9 +69,8 @@ class Curvature(Descriptor):
         measures = curvature_measures(mesh)
         unit = operators.mass.sum()
         if self.quantity == "gaussian":
-            values = (
-                unit * self._diffuse(measures.gaussian, operators.laplacian, operators)[:, None]
-            )
+            density = self._diffuse(measures.gaussian, operators.laplacian, operators)
+            values = unit * density[:, None]
         else:
             values = self._diffuse(measures.mean, operators.laplacian, operators)[:, None]
             if self.quantity == "principal":
