@@ -205,6 +205,9 @@ def predictions(wildcards):
 
 require_valid(config)
 
+OTHER_RESULTS = ("distortion", "reconstruction", "figures")
+"""Sections of the configuration that Table 1 does not depend on."""
+
 COLUMNS = chosen_columns()
 DATABASES = chosen_databases("databases", config["databases"], protocols_of)
 PROTOCOLS = {database: protocols_of(database) for database in DATABASES}

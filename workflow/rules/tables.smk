@@ -20,7 +20,7 @@ rule table1:
     conda:
         "../../environment.yml"
     params:
-        config=config,
+        config={key: part for key, part in config.items() if key not in OTHER_RESULTS},
         rows=[(database, protocol) for database in DATABASES for protocol in PROTOCOLS[database]],
         plugins={
             "dataset": picked(DATASETS, DATABASES),
