@@ -31,13 +31,19 @@ class Authalic(Parametrizer):
 
     shape_weight: float = Field(
         1e-3,
-        gt=0,
+        ge=0,
         le=1,
-        description="weight of angles against areas; smaller keeps areas better",
+        description="weight of angles against areas; 0 keeps areas alone",
     )
     max_iterations: int = Field(100, ge=1, le=10_000, description="Gauss-Newton steps at most")
     tolerance: float = Field(
         1e-3, ge=0, lt=1, description="stop when a step lowers the energy by less than this share"
+    )
+    rounds: int = Field(
+        0,
+        ge=0,
+        le=1000,
+        description="rounds, of a hundred steps and more each, that free faces which block each other",
     )
     exact_areas: bool = Field(
         False,
@@ -56,6 +62,7 @@ class Authalic(Parametrizer):
             shape_weight=self.shape_weight,
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,
+            rounds=self.rounds,
             callback=callback,
             exact_areas=self.exact_areas,
         )

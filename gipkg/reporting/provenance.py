@@ -17,7 +17,7 @@ LIBRARIES = (
     "numba",
     "trimesh",
     "libigl",
-    "cholespy",
+    "cvxopt",
     "scikit-learn",
     "torch",
     "snakemake",

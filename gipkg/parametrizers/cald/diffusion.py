@@ -8,11 +8,11 @@ keeps its faces from flipping, and limbs shrink exponentially with their length.
 from __future__ import annotations
 
 import numpy as np
-from cholespy import CholeskySolverD, MatrixType
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from gipkg.cholesky import Cholesky
 from gipkg.compilation import compiled
 from gipkg.parametrizers.cald.stars import Stars
 
@@ -95,14 +95,12 @@ def _harmonic(
     diagonal = np.bincount(origin, weights, count)[~fixed]
     inner = ~known & ~fixed[origin]
     free = np.arange(len(right))
-    rows = np.r_[free, number[origin[inner]]].astype(np.int32)
-    columns = np.r_[free, number[stars.ring[inner]]].astype(np.int32)
+    rows = np.r_[free, number[origin[inner]]]
+    columns = np.r_[free, number[stars.ring[inner]]]
     entries = np.r_[diagonal, -weights[inner]]
-    solver = CholeskySolverD(len(right), rows, columns, entries, MatrixType.COO)
-    solution = np.zeros(len(right))
-    solver.solve(right, solution)
+    matrix = csr_array((entries, (rows, columns)), shape=(len(right), len(right)))
     result = values.copy()
-    result[~fixed] = solution
+    result[~fixed] = Cholesky.of(matrix).solve(right.astype(np.float64))
     return result
 
 

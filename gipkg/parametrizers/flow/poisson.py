@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from cholespy import CholeskySolverD, MatrixType
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
+
+from gipkg.cholesky import Cholesky
 
 _SHIFT = 1e-8
 """Added to the diagonal, in units of its mean, where the eigenvectors need an inverse."""
@@ -31,7 +32,7 @@ class Poisson:
         self._modes: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
         if rank is None or rank >= count - 1:
             # With one value held at zero the rest is positive definite.
-            self._solver = _factorise(stiffness[1:, 1:])
+            self._solver = Cholesky.of(stiffness[1:, 1:])
         else:
             self._modes = _smoothest_modes(stiffness, rank)
 
@@ -42,9 +43,7 @@ class Poisson:
             values, vectors = self._modes
             return vectors @ ((right @ vectors) / values)
         solution = np.zeros_like(right)
-        free = np.zeros(len(right) - 1)
-        self._solver.solve(right[1:], free)
-        solution[1:] = free
+        solution[1:] = self._solver.solve(right[1:])
         return solution - solution.mean()
 
 
@@ -54,25 +53,12 @@ def _smoothest_modes(
     """Lowest `rank` positive eigenvalues (rank,) and their eigenvectors (V, rank)."""
     count = stiffness.shape[0]
     shift = _SHIFT * stiffness.diagonal().mean()
-    solver = _factorise(stiffness + shift * sp.eye_array(count))
+    solver = Cholesky.of(stiffness + shift * sp.eye_array(count))
 
     def inverse(right: NDArray[np.float64]) -> NDArray[np.float64]:
-        solution = np.zeros(count)
-        solver.solve(np.ascontiguousarray(right.ravel()), solution)
-        return solution
+        return solver.solve(right.ravel())
 
     operator = LinearOperator((count, count), matvec=inverse, dtype=np.float64)
     start = np.random.default_rng(0).standard_normal(count)
     values, vectors = eigsh(stiffness, rank + 1, sigma=-shift, OPinv=operator, v0=start)
     return values[1:], vectors[:, 1:]
-
-
-def _factorise(matrix: sp.csr_array) -> CholeskySolverD:
-    entries = matrix.tocoo()
-    return CholeskySolverD(
-        matrix.shape[0],
-        entries.row.astype(np.int32),
-        entries.col.astype(np.int32),
-        entries.data,
-        MatrixType.COO,
-    )

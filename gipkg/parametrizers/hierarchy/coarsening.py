@@ -161,7 +161,7 @@ def _best_target(  # type: ignore[no-untyped-def]
 
     Merging keeps the mesh a manifold when the two share exactly two neighbours.
     """
-    best, least = -1, np.inf
+    best, least = -1, np.float32(np.inf)
     for i in range(degree):
         u = ring[i]
         valence = gather_ring(twin, origin, outgoing[u], other, other_spokes)
@@ -175,9 +175,10 @@ def _best_target(  # type: ignore[no-untyped-def]
         for k in range(degree):
             for axis in range(3):
                 length += (points[u, axis] - points[ring[k], axis]) ** 2
-        length *= max(1.0, (degrees[u] + degree - 4) / 6.0) ** 2
-        if length < least:
-            best, least = i, length
+        # In single precision a motion of the mesh does not decide between equal lengths.
+        cost = np.float32(length * max(1.0, (degrees[u] + degree - 4) / 6.0) ** 2)
+        if cost < least:
+            best, least = i, cost
     return best
 
 

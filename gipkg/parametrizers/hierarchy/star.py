@@ -1,7 +1,7 @@
 """The energy of one vertex's star on the sphere, and the descent that moves the vertex.
 
-It is the energy of :mod:`gipkg.parametrizers.variational.energy` with two simplifications that coarse
-levels need: a face is weighted by the area it carries, and its shape is held against an
+It is the energy of :mod:`gipkg.parametrizers.variational.energy` with two simplifications that
+coarse levels need: a face is weighted by the area it carries, and its shape is held against an
 equilateral triangle, since the coarse triangles themselves say little about the surface.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.variational.area_penalty import area_penalty, area_penalty_derivatives
+from gipkg.parametrizers.variational.area_residual import area_residual
 
 _EQUILATERAL = 1 / (2 * np.sqrt(3.0))
 """Squared edge lengths -> twice the Dirichlet energy of the map from an equilateral triangle."""
@@ -41,7 +41,8 @@ def star_energy(p, ring, targets, degree, shape):  # type: ignore[no-untyped-def
         ab = (ax - bx) ** 2 + (ay - by) ** 2 + (az - bz) ** 2
         area = 2 * np.arctan2(triple, 4 - 0.5 * (pa + pb + ab))
         conformal = _EQUILATERAL * (pa + pb + ab) / triple
-        energy += targets[i] * (area_penalty(area / targets[i]) + shape * (conformal - 1))
+        residual = area_residual(area / targets[i])[0]
+        energy += targets[i] * (residual**2 + shape * (conformal - 1))
         total += area
     return energy, total
 
@@ -104,8 +105,9 @@ def star_step(p, ring, targets, degree, shape, step):  # type: ignore[no-untyped
             d_u += dd * basis[0, c]
             d_v += dd * basis[1, c]
         weight = targets[i]
-        slope, curvature = area_penalty_derivatives(area / weight)
-        bend = curvature / weight
+        residual, growth = area_residual(area / weight)
+        slope = 2 * residual * growth
+        bend = 2 * growth**2 / weight
         conformal = weight * shape / triple
         mixed = conformal / triple
         turn = 2 * mixed * dirichlet / triple

@@ -11,9 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from cholespy import CholeskySolverD, MatrixType
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from gipkg.cholesky import Cholesky
 from gipkg.parametrizers.transport.power_diagram import PowerDiagram, power_diagram
 
 _GROWTH = 4.0
@@ -85,18 +86,12 @@ def _direction(diagram: PowerDiagram, asked: NDArray[np.float64]) -> NDArray[np.
     count = len(asked)
     first, second = diagram.sides.T
     diagonal = sum(np.bincount(end, diagram.slopes, count) for end in (first, second))
-    # Cells of very different sizes meet in one system; a unit diagonal tames that.
-    scale = 1 / np.sqrt(diagonal)
-    coupling = -diagram.slopes * scale[first] * scale[second]
     every = np.arange(count)
-    solver = CholeskySolverD(
-        count,
-        np.concatenate((first, second, every)).astype(np.int32),
-        np.concatenate((second, first, every)).astype(np.int32),
-        np.concatenate((coupling, coupling, np.full(count, 1 + _REGULARIZATION))),
-        MatrixType.COO,
+    system = sp.csr_array(
+        (
+            np.concatenate((-diagram.slopes, -diagram.slopes, diagonal * (1 + _REGULARIZATION))),
+            (np.concatenate((first, second, every)), np.concatenate((second, first, every))),
+        )
     )
-    direction = np.zeros(count)
-    solver.solve((asked - diagram.areas) * scale, direction)
-    direction *= scale
+    direction = Cholesky.of(system).solve(asked - diagram.areas)
     return direction - direction.mean()

@@ -6,10 +6,11 @@ from collections import deque
 from collections.abc import Callable
 
 import numpy as np
-from cholespy import CholeskySolverD, MatrixType
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from gipkg.api import Callback, Iteration
+from gipkg.cholesky import Cholesky
 from gipkg.parametrizers.unconstrained.energy import ProjectedEnergy
 
 _MEMORY = 8
@@ -140,17 +141,10 @@ def laplacian_preconditioner(
     diagonal = np.bincount(i, weight, count) + np.bincount(j, weight, count)
     diagonal += np.bincount(faces.ravel(), np.repeat(areas / 3, 3), count)
     every = np.arange(count)
-    solver = CholeskySolverD(
-        count,
-        np.concatenate((i, j, every)).astype(np.int32),
-        np.concatenate((j, i, every)).astype(np.int32),
-        np.concatenate((-weight, -weight, diagonal)),
-        MatrixType.COO,
+    system = sp.csr_array(
+        (
+            np.concatenate((-weight, -weight, diagonal)),
+            (np.concatenate((i, j, every)), np.concatenate((j, i, every))),
+        )
     )
-
-    def solve(right: Vectors) -> Vectors:
-        solution = np.zeros_like(right)
-        solver.solve(np.ascontiguousarray(right), solution)
-        return solution
-
-    return solve
+    return Cholesky.of(system).solve

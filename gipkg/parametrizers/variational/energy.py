@@ -1,11 +1,13 @@
 """The energy of a whole spherical map, its gradient and a positive semidefinite Hessian.
 
-Every face f contributes ``W φ(a / A) + shape * A (2 D / det - 1)``: `a` is its signed spherical
-area, `A` the area that it should have, `φ` the penalty of :mod:`~gipkg.parametrizers.variational.area_penalty`,
-`D` the Dirichlet energy of its map from the mesh to the flat triangle of its corners and ``det``
-their triple product. The flat triangle lies at distance h <= 1 from the centre and has the area
-``det / 2h <= D``, so that ``2 D / det`` is at least 1, is the conformal distortion (MIPS: Hormann &
-Greiner 2000) of small triangles, and is infinite when a face collapses or grows to a hemisphere.
+Every face f contributes ``W (ρ(a / A) + μ)² + shape * A (2 D / det - 1)``: `a` is its signed
+spherical area, `A` the area that it should have, `ρ` the
+:func:`~gipkg.parametrizers.variational.area_residual.area_residual`, `μ` a shift that is 0 but
+where :mod:`~gipkg.parametrizers.variational.unjamming` pushes a face on, `D` the Dirichlet energy
+of its map from the mesh to the flat triangle of its corners and ``det`` their triple product. The
+flat triangle lies at distance h <= 1 from the centre and has the area ``det / 2h <= D``, so that
+``2 D / det`` is at least 1, is the conformal distortion (MIPS: Hormann & Greiner 2000) of small
+triangles, and is infinite when a face collapses or grows to a hemisphere.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.variational.area_penalty import area_penalty, area_penalty_derivatives
+from gipkg.parametrizers.variational.area_residual import area_residual
 
 _FULL_TURN = 1e-6
 """Allowed round-off of the total area; the next degree is 4π away."""
@@ -32,11 +34,13 @@ class MapEnergy:
     targets : (F,) float64 array
         Areas that the faces should have, summing to 4π.
     weights : (F,) float64 array
-        Weights W of the area penalties.
+        Weights W of the area terms.
     cotangents : (F, 3) float64 array
         Of the mesh's angles; column k belongs to the corner opposite the edge (k + 1, k + 2).
     shape : float
         Weight of the conformal term.
+    shifts : (F,) float64 array
+        Shifts μ of the area residuals.
     """
 
     faces: NDArray[np.int64]
@@ -44,32 +48,41 @@ class MapEnergy:
     weights: NDArray[np.float64]
     cotangents: NDArray[np.float64]
     shape: float
+    shifts: NDArray[np.float64]
 
     def value(self, sphere: NDArray[np.float64]) -> float:
         """Energy of a map (V, 3); infinite if a face is flipped."""
         return float(
-            _value(sphere, self.faces, self.targets, self.weights, self.cotangents, self.shape)
+            _value(
+                sphere,
+                self.faces,
+                self.targets,
+                self.weights,
+                self.cotangents,
+                self.shape,
+                self.shifts,
+            )
         )
 
     def derivatives(
-        self, sphere: NDArray[np.float64], basis: NDArray[np.float64], damping: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Gradient and Hessian blocks in the tangent coordinates of every vertex.
+        self, sphere: NDArray[np.float64], basis: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Gradient, Hessian and metric in the tangent coordinates of every vertex.
 
-        The Hessian is Gauss-Newton in the area penalty, keeps the convex part of the
-        conformal term and adds `damping` times the Dirichlet metric of the current triangles.
+        The Hessian is Gauss-Newton in the area term and keeps the convex part of the conformal
+        term. The metric is the Dirichlet energy of a displacement on the current triangles: of
+        order W where it turns a face over, however thin that is.
 
         Parameters
         ----------
         sphere : (V, 3) float64 array
         basis : (V, 2, 3) float64 array
             Orthonormal tangent vectors at every vertex.
-        damping : float
 
         Returns
         -------
         gradient : (2V,) float64 array
-        blocks : (F, 6, 6) float64 array
+        hessian, metric : (F, 6, 6) float64 arrays
             Contribution of every face, in the order (corner, coordinate).
         """
         return _derivatives(
@@ -80,12 +93,12 @@ class MapEnergy:
             self.weights,
             self.cotangents,
             self.shape,
-            damping,
+            self.shifts,
         )
 
 
 @compiled
-def _value(sphere, faces, targets, weights, cotangents, shape):  # type: ignore[no-untyped-def]
+def _value(sphere, faces, targets, weights, cotangents, shape, shifts):  # type: ignore[no-untyped-def]
     energy, total = 0.0, 0.0
     for f in range(len(faces)):
         p, q, r = sphere[faces[f, 0]], sphere[faces[f, 1]], sphere[faces[f, 2]]
@@ -101,7 +114,7 @@ def _value(sphere, faces, targets, weights, cotangents, shape):  # type: ignore[
         # Chords |q - p|² of unit vectors give the cosines 1 - |q - p|² / 2 accurately.
         area = 2 * np.arctan2(triple, 4 - 0.5 * (pq + qr + rp))
         dirichlet = cotangents[f, 0] * qr + cotangents[f, 1] * rp + cotangents[f, 2] * pq
-        energy += weights[f] * area_penalty(area / targets[f])
+        energy += weights[f] * (area_residual(area / targets[f])[0] + shifts[f]) ** 2
         energy += shape * targets[f] * (0.5 * dirichlet / triple - 1)
         total += area
     if abs(total - 4 * np.pi) > _FULL_TURN:
@@ -111,12 +124,13 @@ def _value(sphere, faces, targets, weights, cotangents, shape):  # type: ignore[
 
 @compiled
 def _derivatives(  # type: ignore[no-untyped-def]
-    sphere, basis, faces, targets, weights, cotangents, shape, damping
+    sphere, basis, faces, targets, weights, cotangents, shape, shifts
 ):
     gradient = np.zeros(2 * len(sphere))
-    blocks = np.zeros((len(faces), 6, 6))
+    hessian, metric = np.zeros((len(faces), 6, 6)), np.zeros((len(faces), 6, 6))
     corner, squares = np.zeros((3, 3)), np.zeros(3)
-    frame, stiffness = np.zeros((3, 2, 3)), np.zeros((3, 3))
+    frame = np.zeros((3, 2, 3))
+    stiffness, dirichlet_metric = np.zeros((3, 3)), np.zeros((3, 3))
     area_slope, triple_slope, dirichlet_slope = np.zeros(6), np.zeros(6), np.zeros(6)
     for f in range(len(faces)):
         for k in range(3):
@@ -157,17 +171,19 @@ def _derivatives(  # type: ignore[no-untyped-def]
                     pull = cotangents[f, i] * (x[c] - z[c]) + cotangents[f, j] * (x[c] - y[c])
                     dirichlet_slope[m] += pull * tangent
         conformal = shape * targets[f] / triple
-        metric = damping * (weights[f] + shape * targets[f]) / area
+        resistance = (weights[f] + shape * targets[f]) / area
         for k in range(3):
             i, j = (k + 1) % 3, (k + 2) % 3
             own = (squares[i] + squares[j] - squares[k]) / (2 * triple)
-            stiffness[i, j] = -(conformal * cotangents[f, k] + metric * own)
-            stiffness[j, i] = stiffness[i, j]
+            stiffness[i, j] = stiffness[j, i] = -conformal * cotangents[f, k]
+            dirichlet_metric[i, j] = dirichlet_metric[j, i] = -resistance * own
         for k in range(3):
-            stiffness[k, k] = -stiffness[k, (k + 1) % 3] - stiffness[k, (k + 2) % 3]
-        slope, curvature = area_penalty_derivatives(area / targets[f])
-        slope *= weights[f] / targets[f]
-        curvature *= weights[f] / targets[f] ** 2
+            i, j = (k + 1) % 3, (k + 2) % 3
+            stiffness[k, k] = -stiffness[k, i] - stiffness[k, j]
+            dirichlet_metric[k, k] = -dirichlet_metric[k, i] - dirichlet_metric[k, j]
+        residual, growth = area_residual(area / targets[f])
+        slope = 2 * weights[f] * (residual + shifts[f]) * growth / targets[f]
+        curvature = 2 * weights[f] * (growth / targets[f]) ** 2
         mixed = conformal / triple
         triple_bend = 2 * mixed * dirichlet / triple
         for k in range(3):
@@ -184,11 +200,12 @@ def _derivatives(  # type: ignore[no-untyped-def]
                         dot = 0.0
                         for c in range(3):
                             dot += frame[k, d, c] * frame[i, e, c]
-                        blocks[f, m, n] = (
+                        metric[f, m, n] = dirichlet_metric[k, i] * dot
+                        hessian[f, m, n] = (
                             curvature * area_slope[m] * area_slope[n]
                             + triple_bend * triple_slope[m] * triple_slope[n]
                             - mixed * triple_slope[m] * dirichlet_slope[n]
                             - mixed * dirichlet_slope[m] * triple_slope[n]
                             + stiffness[k, i] * dot
                         )
-    return gradient, blocks
+    return gradient, hessian, metric

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 import scipy.sparse as sp
-from cholespy import CholeskySolverD, MatrixType
 from numpy.typing import NDArray
 
+from gipkg.cholesky import Cholesky, NotPositiveDefinite
 from gipkg.errors import ParametrizationError
 from gipkg.parametrizers.sphere.areas import signed_spherical_areas, triple_products
 from gipkg.parametrizers.sphere.tangent import tangent_basis
@@ -24,17 +24,18 @@ _SHORTEST_STEP = 1e-6
 
 
 def project_onto_vertex_areas(
-    energy: MapEnergy, sphere: NDArray[np.float64]
+    energy: MapEnergy, sphere: NDArray[np.float64], areas: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Move a bijective map to the nearest one with exact vertex areas.
 
     Parameters
     ----------
     energy : MapEnergy
-        Its targets give the areas, a third of each of its faces' to a vertex; its curvature
-        tells how far a vertex may move.
+        Its curvature tells how far a vertex may move.
     sphere : (V, 3) float64 array
         Unit vectors, no flipped face.
+    areas : (F,) float64 array
+        Of the faces, summing to 4π; a third of each goes to each of its vertices.
 
     Returns
     -------
@@ -50,7 +51,7 @@ def project_onto_vertex_areas(
         (np.full(faces.size, 1 / 3), (faces.ravel(), np.repeat(np.arange(len(faces)), 3))),
         shape=(len(sphere), len(faces)),
     )
-    wanted = share @ energy.targets
+    wanted = share @ areas
 
     def relative_errors(points: NDArray[np.float64]) -> NDArray[np.float64]:
         if triple_products(points, faces).min() <= 0:
@@ -65,7 +66,9 @@ def project_onto_vertex_areas(
             return sphere
         try:
             step = _least_step(energy, sphere, share, wanted, errors)
-        except ValueError:  # stars so thin that the areas no longer depend on the coordinates
+        except (
+            NotPositiveDefinite
+        ):  # stars so thin that the areas no longer depend on the coordinates
             break
         length = 1.0
         while length > _SHORTEST_STEP:
@@ -103,16 +106,8 @@ def _least_step(
     room = _vertex_room(energy, sphere, basis)
     relative = sp.diags_array(1 / wanted) @ (share @ by_face)
     # One area follows from the others, so the last equation is left out.
-    system = (relative @ room @ relative.T).tocsr()[:-1, :-1].tocoo()
-    solver = CholeskySolverD(
-        len(sphere) - 1,
-        system.row.astype(np.int32),
-        system.col.astype(np.int32),
-        system.data,
-        MatrixType.COO,
-    )
-    multipliers = np.zeros(len(sphere))
-    solver.solve(-errors[:-1], multipliers[:-1])
+    system = (relative @ room @ relative.T).tocsr()[:-1, :-1]
+    multipliers = np.append(Cholesky.of(system).solve(-errors[:-1]), 0.0)
     coordinates = room @ (relative.T @ multipliers)
     step: NDArray[np.float64] = np.einsum("vd,vdc->vc", coordinates.reshape(-1, 2), basis)
     return step
@@ -122,7 +117,8 @@ def _vertex_room(
     energy: MapEnergy, sphere: NDArray[np.float64], basis: NDArray[np.float64]
 ) -> sp.bsr_array:
     """Invert the energy's curvature vertex by vertex: little room across a thin star."""
-    _, blocks = energy.derivatives(sphere, basis, 1.0)
+    _, hessian, metric = energy.derivatives(sphere, basis)
+    blocks = hessian + metric
     curvature = np.zeros((len(sphere), 2, 2))
     for k in range(3):
         own = blocks[:, 2 * k : 2 * k + 2, 2 * k : 2 * k + 2]

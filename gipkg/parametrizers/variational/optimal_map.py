@@ -1,19 +1,31 @@
-"""The way shared by the variational parametrizers: check, embed, descend, verify."""
+"""The way shared by the variational parametrizers: order, embed, descend, verify."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
-from gipkg.api import Callback
-from gipkg.errors import ParametrizationError
+from gipkg.api import Callback, Iteration
+from gipkg.parametrizers.hierarchy.canonical import canonical_order
 from gipkg.parametrizers.hierarchy.embedding import embed
-from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
+from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.exact_areas import project_onto_vertex_areas
-from gipkg.parametrizers.variational.newton import minimize
+from gipkg.parametrizers.variational.newton import Descent
+from gipkg.parametrizers.variational.unjamming import unjam
 from gipkg.surfaces.validation import check_genus_zero
+
+_SHAPE_PATH = (1.0, 0.1)
+"""Weights of shape on the way down: areas met from a smooth map meet fewer jams."""
+_PATH_ITERATIONS, _PATH_TOLERANCE = 15, 1e-2
+_WAY_OUT = (
+    "parts of the mesh shrink below double precision; raise the weight of the area term, or "
+    "remesh thin parts"
+)
 
 
 def least_distorted_map(
@@ -23,10 +35,14 @@ def least_distorted_map(
     shape_weight: float,
     max_iterations: int,
     tolerance: float,
+    rounds: int = 0,
     exact_areas: bool = False,
     callback: Callback | None = None,
 ) -> NDArray[np.float64]:
     """Find a bijective spherical map of least area and shape distortion.
+
+    The mesh enters only through an order of its own and through areas, angles and lengths
+    rounded to single precision, so that permuting or moving it gives the same map.
 
     Parameters
     ----------
@@ -35,12 +51,15 @@ def least_distorted_map(
     area_weight, shape_weight : float
         Of the two terms of :class:`~gipkg.parametrizers.variational.energy.MapEnergy`.
     max_iterations : int
+        Of the descent, before any rounds.
     tolerance : float
-        Relative decrease of the energy that ends the descent.
+        Relative decrease of the energy that ends the descent, and the rounds.
+    rounds : int
+        Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most.
     exact_areas : bool
         Project the result onto exact vertex areas.
     callback : callable, optional
-        Told every iteration of the descent.
+        Told every iteration.
 
     Returns
     -------
@@ -55,21 +74,23 @@ def least_distorted_map(
         The map could not be kept bijective in double precision.
     """
     check_genus_zero(mesh)
-    vertices = np.asarray(mesh.vertices, np.float64)
-    faces = np.asarray(mesh.faces, np.int64)
-    areas, cotangents = triangle_shapes(vertices, faces)
-    targets = areas * (4 * np.pi / areas.sum())
-    start = embed(vertices, faces, targets)
-    # Between uniform weights, with which slivers rule, and areas, with which they are ignored.
-    weights = area_weight * np.sqrt(targets * targets.mean())
-    energy = MapEnergy(faces, targets, weights, cotangents, shape_weight)
-    sphere = minimize(
-        energy, start, max_iterations=max_iterations, tolerance=tolerance, callback=callback
+    order, faces = canonical_order(
+        np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
     )
-    if exact_areas:
-        sphere = project_onto_vertex_areas(energy, sphere)
-    _verify(sphere, faces)
-    return sphere
+    vertices = np.asarray(mesh.vertices, np.float64)[order]
+    areas, cotangents = triangle_shapes(vertices, faces)
+    energy = _energy(faces, areas, cotangents, area_weight, shape_weight)
+    # More threads would add up the blocks of a factorization in another order.
+    with threadpool_limits(limits=1):
+        sphere = embed(vertices, faces, energy.targets)
+        descent = Descent(faces, len(order), callback and _in_order(callback, order))
+        sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
+        if rounds:
+            sphere = unjam(descent, energy, sphere, rounds=rounds, tolerance=tolerance)
+        if exact_areas:
+            sphere = project_onto_vertex_areas(energy, sphere, areas * (4 * np.pi / areas.sum()))
+    require_bijective(sphere, faces, _WAY_OUT)
+    return _restored(sphere, order)
 
 
 def triangle_shapes(
@@ -83,12 +104,60 @@ def triangle_shapes(
     return doubled[:, 0] / 2, np.einsum("fkc,fkc->fk", to_next, to_previous) / doubled
 
 
-def _verify(sphere: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
-    """Raise unless the stored coordinates are a bijection, decided exactly."""
-    flips = np.count_nonzero(flipped_faces(sphere, faces))
-    degree = signed_spherical_areas(sphere, faces).sum() / (4 * np.pi)
-    if flips or abs(degree - 1) > 1e-9:
-        raise ParametrizationError(
-            f"the map has {flips} flipped faces and degree {degree:.6f}: parts of the mesh shrink "
-            "below double precision; raise the weight of the area term"
+def _energy(
+    faces: NDArray[np.int64],
+    areas: NDArray[np.float64],
+    cotangents: NDArray[np.float64],
+    area_weight: float,
+    shape_weight: float,
+) -> MapEnergy:
+    shares = _in_single(areas / areas.mean())
+    targets = shares * (4 * np.pi / shares.sum())
+    # Between uniform weights, with which slivers rule, and areas, with which they are ignored.
+    weights = area_weight * np.sqrt(targets * targets.mean())
+    return MapEnergy(
+        faces, targets, weights, _in_single(cotangents), shape_weight, np.zeros(len(faces))
+    )
+
+
+def _in_single(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    return values.astype(np.float32).astype(np.float64)
+
+
+def _descend(
+    descent: Descent,
+    energy: MapEnergy,
+    sphere: NDArray[np.float64],
+    max_iterations: int,
+    tolerance: float,
+) -> NDArray[np.float64]:
+    """Follow the minimum from much weight on shape down to the weight that was asked for."""
+    for shape in (weight for weight in _SHAPE_PATH if weight > energy.shape):
+        sphere = descent.minimize(
+            replace(energy, shape=shape),
+            sphere,
+            max_iterations=min(_PATH_ITERATIONS, max_iterations - descent.iterations),
+            tolerance=max(tolerance, _PATH_TOLERANCE),
         )
+    return descent.minimize(
+        energy,
+        sphere,
+        max_iterations=max_iterations - descent.iterations,
+        tolerance=tolerance,
+    )
+
+
+def _restored(sphere: NDArray[np.float64], order: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Put points (V, 3) back into the vertex order of the mesh."""
+    restored = np.empty_like(sphere)
+    restored[order] = sphere
+    return restored
+
+
+def _in_order(callback: Callback, order: NDArray[np.int64]) -> Callback:
+    """Tell a callback in the vertex order of the mesh."""
+
+    def tell(iteration: Iteration) -> None:
+        callback(replace(iteration, sphere=_restored(iteration.sphere, order)))
+
+    return tell
