@@ -43,7 +43,7 @@ class Authalic(Parametrizer):
         0,
         ge=0,
         le=1000,
-        description="rounds, of a hundred steps and more each, that free faces which block each other",
+        description="rounds, of about a hundred steps each, that free faces in each other's way",
     )
     exact_areas: bool = Field(
         False,
