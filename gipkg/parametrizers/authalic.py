@@ -47,7 +47,7 @@ class Authalic(Parametrizer):
     )
     exact_areas: bool = Field(
         False,
-        description="end on exact areas of all vertices; those of faces get worse, up to fourfold",
+        description="end on exact areas of all vertices",
     )
 
     def parametrize(

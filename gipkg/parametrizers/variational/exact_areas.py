@@ -1,11 +1,15 @@
-"""Newton projection of a spherical map onto exact vertex areas.
+"""Maps with exact vertex areas, and the least energy that this leaves.
 
 A map of V vertices has 2V coordinates and V vertex areas to meet, one of which follows from the
-total of 4π: enough freedom to meet all of them exactly, by the least change of the map. The 2V - 4
-face areas would leave none, so that face areas are kept as well as possible by the descent before.
+total of 4π: enough freedom to meet all of them exactly, and to choose among the maps that do. The
+2V - 4 face areas would leave none. Sequential quadratic programming finds a map of least energy
+among those with exact vertex areas (Nocedal & Wright, Numerical Optimization, Chapter 18).
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -14,28 +18,58 @@ from numpy.typing import NDArray
 from gipkg.cholesky import Cholesky, NotPositiveDefinite
 from gipkg.errors import ParametrizationError
 from gipkg.parametrizers.sphere.areas import signed_spherical_areas, triple_products
-from gipkg.parametrizers.sphere.tangent import tangent_basis
+from gipkg.parametrizers.sphere.tangent import move, tangent_basis
 from gipkg.parametrizers.variational.energy import MapEnergy
 
 EXACT = 1e-12
 """Relative error of the vertex areas, root mean square, at which they count as exact."""
-_ITERATIONS = 50
-_SHORTEST_STEP = 1e-6
+_NEAR = 1e-4
+"""Error from which the areas are met by Newton's method alone."""
+_ITERATIONS, _RESTORATIONS = 40, 20
+_START_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-2, 1e-9, 1e5
+_SHORTEST_STEP = 1e-2
+_SUFFICIENT = 0.1
+"""Share of the promised decrease that a step has to bring."""
+_STIFFNESS = 1e5
+"""Of the constraints beside the energy's curvature; the multipliers do the rest."""
+_MULTIPLIER_STEPS = 4
 
 
-def project_onto_vertex_areas(
-    energy: MapEnergy, sphere: NDArray[np.float64], areas: NDArray[np.float64]
+@dataclass
+class _Iterate:
+    """A map, its energy, and the relative errors of all vertex areas but the last."""
+
+    sphere: NDArray[np.float64]
+    value: float
+    errors: NDArray[np.float64]
+
+    @property
+    def error(self) -> float:
+        return float(np.sqrt(np.mean(self.errors**2)))
+
+    @property
+    def near(self) -> bool:
+        return self.error < _NEAR
+
+    @property
+    def exact(self) -> bool:
+        return self.error < EXACT
+
+
+def with_exact_vertex_areas(
+    energy: MapEnergy, sphere: NDArray[np.float64], areas: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.float64]:
-    """Move a bijective map to the nearest one with exact vertex areas.
+    """Move a bijective map to one of least energy with exact vertex areas.
 
     Parameters
     ----------
     energy : MapEnergy
-        Its curvature tells how far a vertex may move.
     sphere : (V, 3) float64 array
         Unit vectors, no flipped face.
     areas : (F,) float64 array
         Of the faces, summing to 4π; a third of each goes to each of its vertices.
+    tolerance : float
+        Relative decrease of the energy at which a map with exact areas is good enough.
 
     Returns
     -------
@@ -46,85 +80,140 @@ def project_onto_vertex_areas(
     ParametrizationError
         The areas were not reached without a flip.
     """
-    faces = energy.faces
-    share = sp.csr_array(
-        (np.full(faces.size, 1 / 3), (faces.ravel(), np.repeat(np.arange(len(faces)), 3))),
-        shape=(len(sphere), len(faces)),
-    )
-    wanted = share @ areas
-
-    def relative_errors(points: NDArray[np.float64]) -> NDArray[np.float64]:
-        if triple_products(points, faces).min() <= 0:
-            return np.full(len(points), np.inf)
-        errors: NDArray[np.float64] = share @ signed_spherical_areas(points, faces) / wanted - 1
-        return errors
-
-    errors = relative_errors(sphere)
+    search = _Search(energy, areas, len(sphere))
+    here = search.at(sphere)
     for _ in range(_ITERATIONS):
-        size = np.sqrt(np.mean(errors**2))
-        if size < EXACT:
-            return sphere
-        try:
-            step = _least_step(energy, sphere, share, wanted, errors)
-        except (
-            NotPositiveDefinite
-        ):  # stars so thin that the areas no longer depend on the coordinates
+        found = search.step(here)
+        if found is None:
             break
+        change, here = abs(here.value - found.value), found
+        if here.near and change <= tolerance * here.value:
+            break
+    for _ in range(_RESTORATIONS):
+        found = None if here.exact else search.restore(here)
+        if found is None:
+            break
+        here = found
+    if not here.exact:
+        raise ParametrizationError(
+            f"exact vertex areas were not reached without a flip: the error stays at "
+            f"{here.error:.1e}; "
+            "refine the mesh where it has few vertices around thin parts, or leave exact_areas off"
+        )
+    return here.sphere
+
+
+class _Search:
+    """Steps of the constrained descent over one mesh, damped until they keep what they promise."""
+
+    def __init__(self, energy: MapEnergy, areas: NDArray[np.float64], count: int) -> None:
+        faces = energy.faces
+        self._energy = energy
+        self._share = sp.csr_array(
+            (np.full(faces.size, 1 / 3), (faces.ravel(), np.repeat(np.arange(len(faces)), 3))),
+            shape=(count, len(faces)),
+        )
+        self._wanted = self._share @ areas
+        self._unknowns = (2 * faces[:, :, None] + np.arange(2)).reshape(len(faces), 6)
+        self._damping, self._price = _START_DAMPING, 0.0
+
+    def at(self, sphere: NDArray[np.float64]) -> _Iterate:
+        reached = self._share @ signed_spherical_areas(sphere, self._energy.faces)
+        return _Iterate(sphere, self._energy.value(sphere), (reached / self._wanted - 1)[:-1])
+
+    def step(self, here: _Iterate) -> _Iterate | None:
+        """Step towards less energy and smaller errors; None if damping leads to no such step."""
+        basis, gradient, hessian, metric, jacobian = self._model(here)
+        while self._damping < _MOST_DAMPING:
+            curvature = hessian + self._damping * metric
+            step = _constrained_step(curvature, gradient, jacobian, here.errors)
+            if step is not None:
+                model = float(gradient @ step + 0.5 * step @ (curvature @ step))
+                found = self._searched(here, basis, step, model)
+                if found is not None:
+                    return found
+            self._damping *= 8
+        return None
+
+    def restore(self, here: _Iterate) -> _Iterate | None:
+        """Meet the linearised areas by the least change of the map; None where that fails."""
+        basis, gradient, hessian, metric, jacobian = self._model(here)
+        step = _constrained_step(hessian + metric, 0 * gradient, jacobian, here.errors)
         length = 1.0
-        while length > _SHORTEST_STEP:
-            moved = sphere + length * step
-            moved /= np.linalg.norm(moved, axis=1, keepdims=True)
-            reached = relative_errors(moved)
-            if np.sqrt(np.mean(reached**2)) < size * (1 - 0.1 * length):
-                sphere, errors = moved, reached
-                break
+        while step is not None and length >= _SHORTEST_STEP:
+            there = self.at(move(here.sphere, basis, length * step))
+            if np.isfinite(there.value) and there.error < here.error:
+                return there
             length /= 2
-        else:
-            break
-    raise ParametrizationError(
-        f"exact vertex areas were not reached without a flip: the error stays at {size:.1e}; "
-        "refine the mesh where it has few vertices around thin parts, or leave exact_areas off"
-    )
+        return None
+
+    def _model(self, here: _Iterate) -> tuple[Any, ...]:
+        basis = tangent_basis(here.sphere)
+        gradient, *blocks = self._energy.derivatives(here.sphere, basis)
+        hessian, metric = map(self._assembled, blocks)
+        return basis, gradient, hessian, metric, self._jacobian(here.sphere, basis)
+
+    def _searched(
+        self, here: _Iterate, basis: NDArray[np.float64], step: NDArray[np.float64], model: float
+    ) -> _Iterate | None:
+        """Halve a step until energy plus price of the errors falls as the model promises."""
+        missing = float(np.linalg.norm(here.errors))
+        if not here.exact:
+            self._price = max(self._price, 2 * model / missing)
+        promised = min(model, 0.0) - self._price * missing * (model > 0 or not here.exact)
+        length = 1.0
+        while length >= _SHORTEST_STEP:
+            there = self.at(move(here.sphere, basis, length * step))
+            change = there.value - here.value
+            change += self._price * (float(np.linalg.norm(there.errors)) - missing)
+            if change <= _SUFFICIENT * length * promised:
+                if length == 1:
+                    self._damping = max(self._damping / 4, _LEAST_DAMPING)
+                return there
+            length /= 2
+        return None
+
+    def _assembled(self, blocks: NDArray[np.float64]) -> sp.csr_array:
+        rows = np.repeat(self._unknowns, 6, axis=1).ravel()
+        columns = np.tile(self._unknowns, (1, 6)).ravel()
+        size = 2 * len(self._wanted)
+        return sp.csr_array((blocks.ravel(), (rows, columns)), shape=(size, size))
+
+    def _jacobian(self, sphere: NDArray[np.float64], basis: NDArray[np.float64]) -> sp.csr_array:
+        """Slopes of the errors in the tangent coordinates, (V - 1, 2V)."""
+        faces = self._energy.faces
+        slopes = np.einsum("fkc,fkdc->fkd", _area_gradients(sphere, faces), basis[faces])
+        by_face = sp.csr_array(
+            (slopes.ravel(), self._unknowns.ravel(), 6 * np.arange(len(faces) + 1)),
+            shape=(len(faces), 2 * len(sphere)),
+        )
+        # One area follows from the others, so the last equation is left out.
+        return (sp.diags_array(1 / self._wanted) @ (self._share @ by_face)).tocsr()[:-1]
 
 
-def _least_step(
-    energy: MapEnergy,
-    sphere: NDArray[np.float64],
-    share: sp.csr_array,
-    wanted: NDArray[np.float64],
+def _constrained_step(
+    curvature: sp.csr_array,
+    gradient: NDArray[np.float64],
+    jacobian: sp.csr_array,
     errors: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Find the step (V, 3) that meets the linearised areas and raises the energy least."""
-    faces = energy.faces
-    basis = tangent_basis(sphere)
-    slopes = np.einsum("fkc,fkdc->fkd", _area_gradients(sphere, faces), basis[faces])
-    columns = (2 * faces[:, :, None] + np.arange(2)).reshape(len(faces), 6)
-    by_face = sp.csr_array(
-        (slopes.ravel(), columns.ravel(), 6 * np.arange(len(faces) + 1)),
-        shape=(len(faces), 2 * len(sphere)),
-    )
-    room = _vertex_room(energy, sphere, basis)
-    relative = sp.diags_array(1 / wanted) @ (share @ by_face)
-    # One area follows from the others, so the last equation is left out.
-    system = (relative @ room @ relative.T).tocsr()[:-1, :-1]
-    multipliers = np.append(Cholesky.of(system).solve(-errors[:-1]), 0.0)
-    coordinates = room @ (relative.T @ multipliers)
-    step: NDArray[np.float64] = np.einsum("vd,vdc->vc", coordinates.reshape(-1, 2), basis)
+) -> NDArray[np.float64] | None:
+    """Minimise the quadratic model (2V,) where the linearised errors vanish.
+
+    The method of multipliers keeps the system positive definite and no larger than the model's;
+    it is stiff enough for a few steps to reach round-off.
+    """
+    normal = jacobian.T @ jacobian
+    stiffness = _STIFFNESS * curvature.diagonal().mean() / normal.diagonal().mean()
+    try:
+        factor = Cholesky.of(curvature + stiffness * normal)
+    except NotPositiveDefinite:
+        return None
+    multipliers = np.zeros_like(errors)
+    step = np.zeros_like(gradient)
+    for _ in range(_MULTIPLIER_STEPS):
+        step = -factor.solve(gradient + jacobian.T @ (multipliers + stiffness * errors))
+        multipliers += stiffness * (jacobian @ step + errors)
     return step
-
-
-def _vertex_room(
-    energy: MapEnergy, sphere: NDArray[np.float64], basis: NDArray[np.float64]
-) -> sp.bsr_array:
-    """Invert the energy's curvature vertex by vertex: little room across a thin star."""
-    _, hessian, metric = energy.derivatives(sphere, basis)
-    blocks = hessian + metric
-    curvature = np.zeros((len(sphere), 2, 2))
-    for k in range(3):
-        own = blocks[:, 2 * k : 2 * k + 2, 2 * k : 2 * k + 2]
-        np.add.at(curvature, energy.faces[:, k], own)
-    count = np.arange(len(sphere) + 1)
-    return sp.bsr_array((np.linalg.inv(curvature), count[:-1], count))
 
 
 def _area_gradients(sphere: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gipkg.api import Callback, Iteration
 from gipkg.cholesky import Cholesky, NotPositiveDefinite
 from gipkg.compilation import compiled
-from gipkg.parametrizers.sphere.tangent import tangent_basis
+from gipkg.parametrizers.sphere.tangent import move, tangent_basis
 from gipkg.parametrizers.variational.energy import MapEnergy
 
 _START_DAMPING = 1e-3
@@ -95,7 +95,7 @@ class Descent:
             while ratio < _REJECT:
                 coordinates = self._step(hessian + self.damping * metric, gradient)
                 if coordinates is not None:
-                    moved = _moved(sphere, basis, coordinates)
+                    moved = move(sphere, basis, coordinates)
                     reached = energy.value(moved)
                     # The model is the damped one: its decrease needs no further product.
                     ratio = (value - reached) / float(-0.5 * coordinates @ gradient)
@@ -129,15 +129,6 @@ class Descent:
     def _tell(self, sphere: NDArray[np.float64], value: float, step: float) -> None:
         if self.callback:
             self.callback(Iteration(self.iterations, sphere, value, step))
-
-
-def _moved(
-    sphere: NDArray[np.float64], basis: NDArray[np.float64], coordinates: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Go along tangent coordinates (2V,) and back to the sphere."""
-    moved = sphere + np.einsum("vd,vdc->vc", coordinates.reshape(-1, 2), basis)
-    moved /= np.linalg.norm(moved, axis=1, keepdims=True)
-    return moved
 
 
 @compiled

@@ -14,7 +14,7 @@ from gipkg.parametrizers.hierarchy.canonical import canonical_order
 from gipkg.parametrizers.hierarchy.embedding import embed
 from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.parametrizers.variational.energy import MapEnergy
-from gipkg.parametrizers.variational.exact_areas import project_onto_vertex_areas
+from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.parametrizers.variational.unjamming import unjam
 from gipkg.surfaces.validation import check_genus_zero
@@ -57,7 +57,7 @@ def least_distorted_map(
     rounds : int
         Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most.
     exact_areas : bool
-        Project the result onto exact vertex areas.
+        End on exact areas of all vertices.
     callback : callable, optional
         Told every iteration.
 
@@ -88,7 +88,8 @@ def least_distorted_map(
         if rounds:
             sphere = unjam(descent, energy, sphere, rounds=rounds, tolerance=tolerance)
         if exact_areas:
-            sphere = project_onto_vertex_areas(energy, sphere, areas * (4 * np.pi / areas.sum()))
+            true = areas * (4 * np.pi / areas.sum())
+            sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)
     require_bijective(sphere, faces, _WAY_OUT)
     return _restored(sphere, order)
 
