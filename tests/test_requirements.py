@@ -52,5 +52,6 @@ def test_the_conda_environment_is_in_step(constraints: dict[str, str]) -> None:
     environment = yaml.safe_load((REPOSITORY / "environment.yml").read_text())
     *others, pip = environment["dependencies"]
     assert others == ["python=3.11", "pip"]
-    names = {canonicalize_name(one.name) for one in requirements("learn", "figures", "workflow", "test")}
+    extras = "learn", "figures", "workflow", "test"
+    names = {canonicalize_name(one.name) for one in requirements(*extras)}
     assert pins(pip["pip"]) == {name: constraints[name] for name in names}

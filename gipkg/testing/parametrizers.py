@@ -13,7 +13,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from gipkg.api import Parametrizer
+from gipkg.api import Iteration, Parametrizer
 from gipkg.errors import UnsupportedMesh
 from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
 from gipkg.testing import meshes
@@ -86,6 +86,25 @@ def repeats_itself(plugin: Parametrizer) -> None:
         first.tobytes() == second.tobytes(),
         f"two runs differ by up to {np.abs(first - second).max():.1e}",
     )
+
+
+@SUITE.check(when=lambda plugin: plugin.tags.iterative)
+def tells_its_iterations(plugin: Parametrizer) -> None:
+    """A callback is told the start and every iteration in order, and changes nothing."""
+    mesh = meshes.ellipsoid()
+    numbers: list[int] = []
+
+    def note(iteration: Iteration) -> None:
+        numbers.append(iteration.number)
+        error = np.abs(np.linalg.norm(iteration.sphere, axis=1) - 1).max()
+        require(error <= UNIT_NORM, f"iteration {iteration.number}: norms deviate by {error:.1e}")
+        require(np.isfinite(iteration.objective), f"iteration {iteration.number}: no objective")
+
+    told = plugin.parametrize(mesh, note)
+    require(numbers == list(range(len(numbers))), f"the numbers are {numbers[:9]}")
+    require(len(numbers) > 1, "no iteration was told")
+    same = told.tobytes() == plugin.parametrize(mesh).tobytes()
+    require(same or not plugin.tags.deterministic, "listening changes the map")
 
 
 @SUITE.check()

@@ -1,11 +1,17 @@
 """Properties of the built-in maps themselves; the conformance suite checks the contracts."""
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
+from scipy.spatial.transform import Rotation
 
 from gipkg.datasets.shrec11 import Shrec11
-from gipkg.errors import ParametrizationError, UnsupportedMesh
+from gipkg.errors import UnsupportedMesh
 from gipkg.evaluation.distortion import distortion
 from gipkg.parametrizers import parametrize
 from gipkg.surfaces.validation import genus_zero_faults
@@ -116,8 +122,8 @@ def test_real_articulated_shapes(data_root, method: str) -> None:
         _assert_bijective(spherical_map)
         measured.append(distortion(spherical_map))
     if method == "authalic":
-        assert np.median([m.face_std for m in measured]) < 0.12
-        assert np.median([m.vertex_std for m in measured]) < 0.03
+        assert np.median([m.face_std for m in measured]) < 0.09
+        assert np.median([m.vertex_std for m in measured]) < 0.025
 
 
 @pytest.mark.parametrize("name", ["hand", "homer", "david1", "camel"])
@@ -128,20 +134,62 @@ def test_real_scans(data_root, name: str) -> None:
     assert distortion(spherical_map).vertex_std < 0.05
 
 
-def test_exact_vertex_areas_on_real_shapes_or_an_error_that_says_no(data_root) -> None:
+def test_exact_vertex_areas_on_real_shapes(data_root) -> None:
     database = Shrec11()
-    reached = 0
-    shapes = database.shapes(data_root)[::30]
-    for shape in shapes:
+    lamps = [shape for shape in database.shapes(data_root) if shape.label == "lamp"][::4]
+    for shape in (*database.shapes(data_root)[::40], *lamps):
         mesh = database.load(data_root, shape.id)
-        try:
-            spherical_map = parametrize(mesh, exact_areas=True)
-        except UnsupportedMesh:  # of genus 1
+        if list(genus_zero_faults(mesh.vertices, mesh.faces)):
             continue
-        except ParametrizationError as error:
-            assert "exact vertex areas were not reached" in str(error)  # noqa: PT017
-            continue
+        spherical_map = parametrize(mesh, exact_areas=True)
         _assert_bijective(spherical_map)
         assert distortion(spherical_map).vertex_std < 1e-10
-        reached += 1
-    assert reached >= 0.9 * len(shapes)
+
+
+def test_rounds_free_faces_that_block_each_other() -> None:
+    mesh = urchin(12, 6.0)
+    plain, freed = (
+        distortion(parametrize(mesh, shape_weight=1e-6, rounds=rounds)) for rounds in (0, 3)
+    )
+    assert freed.flips == 0
+    assert freed.face_std < 0.7 * plain.face_std
+
+
+@pytest.mark.parametrize("method", ["authalic", "conformal"])
+def test_a_renumbered_or_moved_mesh_gets_the_same_map(method: str) -> None:
+    mesh = icosphere(2)
+    rng = np.random.default_rng(0)
+    mesh.vertices *= [1, 1, 3] * (1 + 0.1 * rng.normal(size=(len(mesh.vertices), 1)))
+    sphere = parametrize(mesh, method).sphere
+    shuffle = rng.permutation(len(mesh.vertices))
+    faces = np.argsort(shuffle)[mesh.faces][rng.permutation(len(mesh.faces))]
+    rotation = Rotation.random(rng=rng)
+    moved = rotation.apply(5 * mesh.vertices[shuffle]) - 2
+    changed = trimesh.Trimesh(moved, faces, process=False)
+    np.testing.assert_allclose(parametrize(changed, method).sphere, sphere[shuffle], atol=1e-12)
+
+
+_MAP_BYTES = """
+import hashlib
+import gipkg
+from tests.support.shapes import urchin
+sphere = gipkg.parametrize(urchin(12, 6.0, subdivisions=5), rounds=1, exact_areas=True).sphere
+print(hashlib.sha256(sphere.tobytes()).hexdigest())
+"""
+
+
+def test_any_number_of_threads_gives_the_same_bits() -> None:
+    hashes = set()
+    for threads in ("1", "4"):
+        names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS")
+        environment = os.environ | dict.fromkeys(names, threads)
+        run = subprocess.run(
+            [sys.executable, "-c", _MAP_BYTES],
+            env=environment,
+            cwd=Path(__file__).parents[2],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        hashes.add(run.stdout)
+    assert len(hashes) == 1

@@ -12,6 +12,7 @@ from gipkg.errors import PluginError, did_you_mean
 from gipkg.fingerprints import fingerprint_module
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.parameters import validated
+from gipkg.shards import shard_of
 
 min_version("9.9")
 
@@ -203,6 +204,19 @@ def predictions(wildcards):
     return expand(pattern, seed=config["seeds"], allow_missing=True)
 
 
+def figure_params(figure):
+    """Return what the script of one of Figures 2 to 4 depends on beside its input."""
+    chosen = config["figures"][figure]
+    return {
+        "config": chosen,
+        "plugins": {
+            "dataset": picked(DATASETS, [SUBJECT["database"]]),
+            "parametrizer": picked(PARAMETRIZERS, chosen["parametrizers"]),
+        },
+        "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),
+    }
+
+
 require_valid(config)
 
 OTHER_RESULTS = ("distortion", "reconstruction", "figures")
@@ -246,6 +260,9 @@ BASELINES = instances(
     "baseline", (column["baseline"] for column in COLUMNS.values() if "baseline" in column)
 )
 NETWORKS = {name: network(COLUMNS[name]["network"]) for name in LEARNED}
+
+SUBJECT_SHARD = shard_of(SUBJECT["shape"], config["datasets"][SUBJECT["database"]]["shards"])
+SUBJECT_SURFACES = f"results/surfaces/{SUBJECT['database']}/{SUBJECT_SHARD}.npz"
 
 
 wildcard_constraints:

@@ -1,22 +1,3 @@
-from gipkg.shards import shard_of
-
-SUBJECT_SHARD = shard_of(SUBJECT["shape"], config["datasets"][SUBJECT["database"]]["shards"])
-SUBJECT_SURFACES = f"results/surfaces/{SUBJECT['database']}/{SUBJECT_SHARD}.npz"
-
-
-def figure_params(figure):
-    """Return what the script of one of Figures 2 to 4 depends on beside its input."""
-    chosen = config["figures"][figure]
-    return {
-        "config": chosen,
-        "plugins": {
-            "dataset": picked(DATASETS, [SUBJECT["database"]]),
-            "parametrizer": picked(PARAMETRIZERS, chosen["parametrizers"]),
-        },
-        "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),
-    }
-
-
 rule figure2:
     input:
         SUBJECT_SURFACES,

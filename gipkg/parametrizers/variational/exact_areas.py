@@ -21,8 +21,10 @@ from gipkg.parametrizers.sphere.areas import signed_spherical_areas, triple_prod
 from gipkg.parametrizers.sphere.tangent import move, tangent_basis
 from gipkg.parametrizers.variational.energy import MapEnergy
 
-EXACT = 1e-12
-"""Relative error of the vertex areas, root mean square, at which they count as exact."""
+EXACT = 1e-10
+"""Relative error of the vertex areas, root mean square, up to which they count as exact."""
+_ROUND_OFF = 1e-12
+"""Below this it is not lowered further; very thin faces may end a little above."""
 _NEAR = 1e-4
 """Error from which the areas are met by Newton's method alone."""
 _ITERATIONS, _RESTORATIONS = 40, 20
@@ -46,14 +48,6 @@ class _Iterate:
     @property
     def error(self) -> float:
         return float(np.sqrt(np.mean(self.errors**2)))
-
-    @property
-    def near(self) -> bool:
-        return self.error < _NEAR
-
-    @property
-    def exact(self) -> bool:
-        return self.error < EXACT
 
 
 def with_exact_vertex_areas(
@@ -87,14 +81,14 @@ def with_exact_vertex_areas(
         if found is None:
             break
         change, here = abs(here.value - found.value), found
-        if here.near and change <= tolerance * here.value:
+        if here.error < _NEAR and change <= tolerance * here.value:
             break
     for _ in range(_RESTORATIONS):
-        found = None if here.exact else search.restore(here)
+        found = None if here.error < _ROUND_OFF else search.restore(here)
         if found is None:
             break
         here = found
-    if not here.exact:
+    if here.error > EXACT:
         raise ParametrizationError(
             f"exact vertex areas were not reached without a flip: the error stays at "
             f"{here.error:.1e}; "
@@ -158,9 +152,9 @@ class _Search:
     ) -> _Iterate | None:
         """Halve a step until energy plus price of the errors falls as the model promises."""
         missing = float(np.linalg.norm(here.errors))
-        if not here.exact:
+        if here.error > _ROUND_OFF:
             self._price = max(self._price, 2 * model / missing)
-        promised = min(model, 0.0) - self._price * missing * (model > 0 or not here.exact)
+        promised = min(model, 0.0) - self._price * missing * (here.error > _ROUND_OFF)
         length = 1.0
         while length >= _SHORTEST_STEP:
             there = self.at(move(here.sphere, basis, length * step))
