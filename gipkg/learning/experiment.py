@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from torch import Tensor
 
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.device import choose_device, reproducible
-from gipkg.learning.network import ShallowNetwork
+from gipkg.learning.network import ShallowNetwork, ViewClassifier
 from gipkg.learning.prediction import Prediction
 from gipkg.learning.training import train
-from gipkg.learning.views import Layout, Scale, fit_scale, stack
+from gipkg.learning.views import Layout, fit_scale, stack
 
 
 def train_and_predict(
@@ -67,20 +68,61 @@ def train_and_predict(
         The checkpoint cannot be read.
     """
     network, training = network or NetworkConfig(), training or TrainingConfig()
-    chosen = choose_device(device)
-    classes = tuple(sorted({labels[i] for i in train_ids}))
-    targets = torch.tensor([classes.index(labels[i]) for i in train_ids])
     size = images[train_ids[0]].shape[-1]
     layout = Layout(network.margin, permutation(size, seed) if training.shuffle_pixels else None)
-    with reproducible(chosen, training.threads):
+    with reproducible(choose_device(device), training.threads):
         views = stack(images, train_ids, layout)
         scale = fit_scale(views, jointly=training.scaling == "joint")
         for shape in views:
             shape.copy_(scale(shape))
+        return learn_views(
+            lambda classes: ShallowNetwork(network, views.shape[-1], views.shape[-2], classes),
+            views,
+            [labels[i] for i in train_ids],
+            lambda shape_id: scale(torch.from_numpy(layout(images[shape_id]))),
+            test_ids,
+            training=training,
+            seed=seed,
+            device=device,
+            checkpoint=checkpoint,
+        )
+
+
+def learn_views(
+    make_network: Callable[[int], ViewClassifier],
+    views: Tensor,
+    labels: Sequence[str],
+    views_of: Callable[[str], Tensor],
+    test_ids: Sequence[str],
+    *,
+    training: TrainingConfig,
+    seed: int,
+    device: str,
+    checkpoint: Path | None,
+) -> Prediction:
+    """Train any network on views of some shapes and predict others from theirs.
+
+    Parameters
+    ----------
+    make_network : callable
+        Number of classes k to a network.
+    views : (n, V, H, W, C) tensor
+        V views of each of n training shapes.
+    labels : sequence of n classes
+    views_of : callable
+        Test shape id to its (V, H, W, C) views.
+    test_ids : sequence of str
+    training, seed, device, checkpoint
+        As for :func:`train_and_predict`, which says what is returned and raised.
+    """
+    chosen = choose_device(device)
+    classes = tuple(sorted(set(labels)))
+    targets = torch.tensor([classes.index(label) for label in labels])
+    with reproducible(chosen, training.threads):
         torch.manual_seed(seed)
-        model = ShallowNetwork(network, views.shape[-1], views.shape[-2], len(classes)).to(chosen)
-        train(model, views, targets, training, seed, checkpoint)
-        scores, embeddings = predict(model, images, test_ids, layout, scale)
+        network = make_network(len(classes)).to(chosen)
+        train(network, views, targets, training, seed, checkpoint)
+        scores, embeddings = predict(network, views_of, test_ids)
     return Prediction(tuple(test_ids), classes, scores, embeddings)
 
 
@@ -91,22 +133,17 @@ def permutation(size: int, seed: int) -> NDArray[np.int64]:
 
 @torch.inference_mode()
 def predict(
-    model: ShallowNetwork,
-    images: Mapping[str, NDArray[np.float32]],
-    ids: Sequence[str],
-    layout: Layout,
-    scale: Scale,
+    network: ViewClassifier, views_of: Callable[[str], Tensor], ids: Sequence[str]
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Average softmax scores (n, k) and signatures (n, features) over the views of each shape."""
-    model.eval()
-    weights = model.classifier.weight
+    network.eval()
+    weights = network.classifier.weight
     # Filled in place: small results kept one by one would fragment the memory of the large ones.
     pooled_scores, pooled_signatures = (
         np.zeros((len(ids), width), np.float32) for width in weights.shape
     )
     for i, shape_id in enumerate(ids):
-        views = scale(torch.from_numpy(layout(images[shape_id]))).permute(0, 3, 1, 2)
-        scores, signatures = model(views.to(weights.device))
+        scores, signatures = network(views_of(shape_id).permute(0, 3, 1, 2).to(weights.device))
         pooled_scores[i] = scores.softmax(1).mean(0).cpu()
         pooled_signatures[i] = signatures.mean(0).cpu()
     return pooled_scores, pooled_signatures

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import torch
 from torch import Tensor, nn
 
 from gipkg.errors import LearningError
@@ -31,7 +32,19 @@ def feature_map_size(size: int) -> int:
     return side
 
 
-class ShallowNetwork(nn.Module):
+class ViewClassifier(nn.Module):
+    """Views (B, C, H, W) to class scores before the softmax (B, k) and signatures (B, features).
+
+    Attributes
+    ----------
+    classifier : nn.Linear
+        The last layer, from features to k scores.
+    """
+
+    classifier: nn.Linear
+
+
+class ShallowNetwork(ViewClassifier):
     """Three unpadded convolutions with maximum pooling, a fully connected layer, class scores.
 
     Parameters
@@ -65,6 +78,7 @@ class ShallowNetwork(nn.Module):
             nn.ReLU(),
         )
         self.classifier = nn.Linear(config.features, classes)
+        self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # not annotated
 
     def forward(self, images: Tensor) -> tuple[Tensor, Tensor]:
         """Return the class scores before the softmax (B, k) and the signatures (B, features)."""

@@ -80,8 +80,8 @@ def train(
     Parameters
     ----------
     network : nn.Module
-        Images (B, C, H, W) to scores (B, k) and signatures.
-    views : (n, V, H, W, C) float32 tensor
+        Views (B, C, H, W) to scores (B, k) and signatures.
+    views : (n, V, H, W, C) tensor
         V views of each of n shapes, in main memory.
     classes : (n,) int64 tensor
         Class of every shape, in [0, k).
@@ -99,7 +99,6 @@ def train(
         The checkpoint cannot be read.
     """
     device = next(network.parameters()).device
-    network.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # not annotated
     network.train()
     optimiser = make_optimiser(network, config)
     criterion = nn.CrossEntropyLoss(label_smoothing=config.label_smoothing)
