@@ -32,9 +32,10 @@ _START_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-2, 1e-9, 1e5
 _SHORTEST_STEP = 1e-2
 _SUFFICIENT = 0.1
 """Share of the promised decrease that a step has to bring."""
-_STIFFNESS = 1e5
+_STIFFNESS = 1e7
 """Of the constraints beside the energy's curvature; the multipliers do the rest."""
-_MULTIPLIER_STEPS = 4
+_MULTIPLIER_STEPS, _LEFT = 100, 1e-6
+"""Steps at most, and the share of the errors that they may leave."""
 
 
 @dataclass
@@ -194,19 +195,25 @@ def _constrained_step(
     """Minimise the quadratic model (2V,) where the linearised errors vanish.
 
     The method of multipliers keeps the system positive definite and no larger than the model's;
-    it is stiff enough for a few steps to reach round-off.
+    it is stiff enough for a few steps to reach round-off. Every constraint is scaled by what the
+    curvature opposes to it, since stars may be of very different sizes.
     """
-    normal = jacobian.T @ jacobian
-    stiffness = _STIFFNESS * curvature.diagonal().mean() / normal.diagonal().mean()
+    compliance = jacobian.multiply(jacobian) @ (1 / curvature.diagonal())
+    scale = np.sqrt(_STIFFNESS / compliance)
+    jacobian = (sp.diags_array(scale) @ jacobian).tocsr()
+    errors = scale * errors
     try:
-        factor = Cholesky.of(curvature + stiffness * normal)
+        factor = Cholesky.of(curvature + jacobian.T @ jacobian)
     except NotPositiveDefinite:
         return None
     multipliers = np.zeros_like(errors)
     step = np.zeros_like(gradient)
     for _ in range(_MULTIPLIER_STEPS):
-        step = -factor.solve(gradient + jacobian.T @ (multipliers + stiffness * errors))
-        multipliers += stiffness * (jacobian @ step + errors)
+        step = -factor.solve(gradient + jacobian.T @ (multipliers + errors))
+        left = jacobian @ step + errors
+        multipliers += left
+        if np.linalg.norm(left) <= _LEFT * np.linalg.norm(errors):
+            break
     return step
 
 
