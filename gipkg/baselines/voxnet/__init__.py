@@ -1,0 +1,1 @@
+"""VoxNet: a three-dimensional convolutional network on solids made of voxels."""

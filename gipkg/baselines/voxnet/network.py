@@ -1,0 +1,72 @@
+"""The network of Maturana & Scherer (2015), Section III-C, as its authors released it."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from gipkg.learning.network import ViewClassifier
+
+FILTERS = 32
+FEATURES = 128
+SLOPE = 0.1
+DROPOUT = (0.2, 0.3, 0.4)
+JITTER = 2
+"""Voxels by which a grid is shifted at most, along each axis, while it is learned from."""
+
+
+class VoxelNetwork(ViewClassifier):
+    """Two convolutions, one maximum pooling, a fully connected layer of 128, class scores.
+
+    Parameters
+    ----------
+    size : int
+        The input is (B, size, size, size).
+    classes : int
+        Number of classes k.
+    """
+
+    def __init__(self, size: int, classes: int) -> None:
+        super().__init__()
+        side = ((size - 5) // 2 + 1 - 2) // 2
+        self.signature = nn.Sequential(
+            nn.Conv3d(1, FILTERS, 5, stride=2),
+            nn.LeakyReLU(SLOPE),
+            nn.Dropout(DROPOUT[0]),
+            nn.Conv3d(FILTERS, FILTERS, 3),
+            nn.LeakyReLU(SLOPE),
+            nn.MaxPool3d(2),
+            nn.Dropout(DROPOUT[1]),
+            nn.Flatten(),
+            nn.Linear(FILTERS * side**3, FEATURES),
+            nn.ReLU(),
+        )
+        self.dropout = nn.Dropout(DROPOUT[2])
+        self.classifier = nn.Linear(FEATURES, classes)
+        for layer in self.modules():
+            if isinstance(layer, nn.Conv3d):
+                nn.init.kaiming_normal_(layer.weight, a=SLOPE)
+            elif isinstance(layer, nn.Linear):
+                nn.init.normal_(layer.weight, std=0.01)
+
+    def forward(self, grids: Tensor) -> tuple[Tensor, Tensor]:
+        """Return the class scores before the softmax (B, k) and the signatures (B, 128).
+
+        A grid holds truth values, which become -1 and 1.
+        """
+        if self.training:
+            grids = shifted(grids, JITTER)
+        signatures = self.signature(2 * grids.unsqueeze(1).float() - 1)
+        return self.classifier(self.dropout(signatures)), signatures
+
+
+def shifted(grids: Tensor, most: int) -> Tensor:
+    """Shift every grid (B, n, n, n) at random, by at most so many voxels along each axis.
+
+    What leaves on one side enters on the other; it is empty where there is a margin.
+    """
+    count, size = grids.shape[:2]
+    shifts = torch.randint(-most, most + 1, (3, count, 1)).to(grids.device)
+    i, j, k = (torch.arange(size, device=grids.device) + shifts) % size
+    rows = torch.arange(count, device=grids.device)[:, None, None, None]
+    return grids[rows, i[:, :, None, None], j[:, None, :, None], k[:, None, None, :]]

@@ -1,0 +1,104 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+
+from gipkg.baselines.voxels import principal_frame, turned_solids, voxelise
+from gipkg.errors import UnsupportedMesh
+from gipkg.testing import meshes
+
+SIZE = 16
+
+
+def solid(mesh: trimesh.Trimesh, size: int = SIZE) -> np.ndarray:
+    """Voxelise a mesh whose unit is the voxel."""
+    return voxelise(np.asarray(mesh.vertices)[mesh.faces], size)
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 2**32 - 1))
+def test_voxels_are_where_a_convex_body_is(seed: int) -> None:
+    """Second route: a point is inside a convex body if it is behind all its faces."""
+    rng = np.random.default_rng(seed)
+    body = trimesh.convex.convex_hull(rng.uniform(-2, SIZE + 1, (12, 3)))
+    points = np.indices((SIZE, SIZE, SIZE)).reshape(3, -1).T
+    heights = points @ body.face_normals.T
+    inside = heights < np.einsum("fi,fi->f", body.triangles[:, 0], body.face_normals)
+    assert_array_equal(solid(body).ravel(), inside.all(axis=1))
+
+
+@pytest.mark.parametrize("corner", [0.0, 2.0, 2.5])
+def test_a_box_through_voxel_centres_keeps_one_of_two_opposite_sides(corner: float) -> None:
+    """No column leaks where edges and diagonals pass through centres, even at the border."""
+    box = trimesh.creation.box(extents=(8, 8, 8))
+    box.apply_translation(np.full(3, corner + 4))
+    found = solid(box)
+    assert found.sum() == 8**3
+    assert_array_equal(np.ptp(np.argwhere(found), axis=0), 7)
+
+
+def test_a_ball_has_its_volume() -> None:
+    ball = trimesh.creation.icosphere(4)
+    grid = turned_solids(ball, 2, 48, 40)[0]
+    assert grid.sum() == pytest.approx(4 / 3 * np.pi * 20**3, rel=0.01)
+
+
+def test_what_is_outside_the_grid_is_cut_off() -> None:
+    box = trimesh.creation.box(extents=(100, 100, 100))
+    assert solid(box).all()
+    box.apply_translation((0, 0, -50 + 3.5))
+    assert_array_equal(solid(box)[2, 5], np.arange(SIZE) <= 3)
+
+
+def test_a_body_enclosed_twice_is_solid_and_a_cavity_is_empty() -> None:
+    outer = trimesh.creation.box(extents=(12, 12, 12))
+    inner = trimesh.creation.box(extents=(4, 4, 4))
+    for body in (outer, inner):
+        body.apply_translation((7.5, 7.5, 7.5))
+    assert solid(trimesh.util.concatenate([outer, inner])).sum() == 12**3
+    inner.invert()
+    assert solid(trimesh.util.concatenate([outer, inner])).sum() == 12**3 - 4**3
+
+
+def test_rotations_are_centred_of_one_scale_and_fit() -> None:
+    mesh = meshes.mesh_of(meshes.limbed().vertices * 1e3 + 1e5, meshes.limbed().faces)
+    grids = turned_solids(mesh, 4, 32, 24)
+    for k in range(4):
+        assert_array_equal(grids[k], np.rot90(grids[0], k))
+    filled = [np.argwhere(grid) for grid in turned_solids(mesh, 12, 32, 24)]
+    assert min(voxels.min() for voxels in filled) >= 4
+    assert max(voxels.max() for voxels in filled) <= 27
+    assert max(np.ptp(voxels, axis=0).max() for voxels in filled) in (22, 23)
+
+
+def test_a_mesh_that_is_inside_out_is_refused() -> None:
+    mesh = meshes.limbed()
+    mesh.invert()
+    with pytest.raises(UnsupportedMesh, match="outwards"):
+        turned_solids(mesh, 2, SIZE, 12)
+    with pytest.raises(UnsupportedMesh, match="outwards"):
+        principal_frame(mesh)
+
+
+def test_the_longest_axis_stands_upright_with_its_tail_above() -> None:
+    cone = trimesh.creation.cone(radius=1.0, height=8.0)
+    turn = trimesh.transformations.random_rotation_matrix(np.array([0.1, 0.7, 0.4]))
+    turn[:3, 3] = 1e3
+    cone.apply_transform(turn)
+    frame = principal_frame(cone)
+    assert_allclose(frame.T @ frame, np.eye(3), atol=1e-12)
+    assert np.linalg.det(frame) == pytest.approx(1)
+    assert_allclose(frame[:, 2], turn[:3, 2], atol=1e-6)  # From the base to the tip.
+
+
+def test_a_moved_mesh_stands_as_before_but_for_half_a_turn() -> None:
+    mesh = meshes.limbed()
+    moved = meshes.moved(mesh, np.random.default_rng(0))
+    upright, again = (np.asarray(one.vertices) @ principal_frame(one) for one in (mesh, moved))
+    upright, again = upright - upright.mean(axis=0), again - again.mean(axis=0)
+    assert_allclose(np.abs(again), np.abs(upright), atol=1e-9)
+    assert_allclose(again[:, 2], upright[:, 2], atol=1e-9)
