@@ -18,6 +18,11 @@ class Authalic(Parametrizer):
     It minimises the squared logarithms of the area ratios plus `shape_weight` times a conformal
     term, from a bijective start, by Gauss-Newton steps that never flip a face. The paper
     reduces the same area distortion by a flow of small explicit steps.
+
+    The defaults are for learning: fast, areas of faces to a few percent. For the most exact areas
+    take ``shape_weight=1e-6, rounds=6, exact_areas=True``. Vertex areas can then be exact, since
+    there are V of them and 2V - 3 degrees of freedom. The 2V - 5 face areas take up all freedom,
+    and on limbs with few vertices around, where they block each other, they stay a percent off.
     """
 
     summary: ClassVar[str] = "area-preserving, bijective (the paper's map, found variationally)"
