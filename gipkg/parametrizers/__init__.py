@@ -1,8 +1,10 @@
 """Parametrizers: closed genus-0 mesh to unit sphere (paper, Section 3).
 
-A module here is a method that has a name. What they are built from: :mod:`.hierarchy`, the
-bijective start of all of them; :mod:`.variational`, the maps of least distortion; and
-:mod:`.sphere`, the geometry of spherical triangles, which also proves a map bijective.
+A module here is a method that has a name; a folder is what methods are built from. For all of
+them: :mod:`.hierarchy`, the bijective start, and :mod:`.sphere`, the geometry of spherical
+triangles, which also proves a map bijective. :mod:`.variational` makes ``authalic`` and
+``conformal``, :mod:`.flow` ``authalic-flow`` and ``lie-advection``, :mod:`.unconstrained`
+``penalty``, :mod:`.transport` ``optimal-transport``, and :mod:`.cald` ``spharm``.
 """
 
 from __future__ import annotations
