@@ -107,7 +107,15 @@ class Mumbling(Radial):
             raise UnsupportedMesh("it does not work") from None
 
 
+class Silent(Radial):
+    tags: ClassVar[ParametrizerTags] = ParametrizerTags(iterative=True)
+
+    def parametrize(self, mesh, callback=None):
+        return super().parametrize(mesh)
+
+
 WRONG = {
+    Silent: {"tells-its-iterations"},
     NotUnit: {"returns-an-array-of-unit-vectors"},
     Single: {"returns-an-array-of-unit-vectors"},
     Mutating: {"leaves-the-mesh-alone"},

@@ -81,8 +81,11 @@ def volume_surface(
     result = decimate(Triangles(fair(dense, faces, FAIRING), faces, original), vertices)
     points = (result.vertices + corner) * volume.spacing + volume.origin
     mesh = trimesh.Trimesh(points, result.faces, process=False)
+    if mesh.volume < 0:
+        # A rugged solid reduced to a handful of vertices can be turned inside out by it.
+        mesh = trimesh.Trimesh(points, result.faces[:, ::-1], process=False)
     check_genus_zero(mesh)
-    report = Report(before, count(points, result.faces), tuple(steps))
+    report = Report(before, count(points, mesh.faces), tuple(steps))
     return Surface(mesh, result.original, report)
 
 
