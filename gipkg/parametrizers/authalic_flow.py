@@ -71,8 +71,8 @@ class AuthalicFlow(Parametrizer):
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.flow.authalic import AreaFlow
-        from gipkg.parametrizers.flow.objective import mean_square_distortion
         from gipkg.parametrizers.hierarchy.starts import start_map
+        from gipkg.parametrizers.sphere.areas import mean_square_distortion
         from gipkg.parametrizers.sphere.bijectivity import require_bijective
 
         check_genus_zero(mesh)

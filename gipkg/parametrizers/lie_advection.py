@@ -42,8 +42,8 @@ class LieAdvection(Parametrizer):
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.flow.lie import LieFlow
-        from gipkg.parametrizers.flow.objective import mean_square_distortion
         from gipkg.parametrizers.hierarchy.starts import start_map
+        from gipkg.parametrizers.sphere.areas import mean_square_distortion
 
         check_genus_zero(mesh)
         faces = np.asarray(mesh.faces, np.int64)

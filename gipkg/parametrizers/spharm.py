@@ -52,10 +52,11 @@ class Spharm(Parametrizer):
         averaged over the surface; the step is the share of the warp that was made.
         """
         from gipkg.parametrizers.cald.diffusion import diffuse
-        from gipkg.parametrizers.cald.global_smoothing import area_error, smooth_globally
+        from gipkg.parametrizers.cald.global_smoothing import smooth_globally
         from gipkg.parametrizers.cald.local_smoothing import smooth_locally
         from gipkg.parametrizers.cald.stars import Stars
         from gipkg.parametrizers.hierarchy.embedding import embed
+        from gipkg.parametrizers.sphere.areas import mean_square_distortion
         from gipkg.parametrizers.variational.optimal_map import triangle_shapes
         from gipkg.surfaces.validation import check_genus_zero
 
@@ -71,10 +72,12 @@ class Spharm(Parametrizer):
         else:
             sphere = embed(vertices, faces, areas)
         if callback:
-            callback(Iteration(0, sphere, area_error(sphere, faces, areas), 0.0))
+            callback(Iteration(0, sphere, mean_square_distortion(sphere, faces, areas), 0.0))
         for number in range(1, self.iterations + 1):
             sphere, share = smooth_globally(sphere, faces, areas, self.degree, axis=number % 3)
             smooth_locally(sphere, stars, areas, cotangents, self.length_limit, self.sweeps)
             if callback:
-                callback(Iteration(number, sphere, area_error(sphere, faces, areas), share))
+                callback(
+                    Iteration(number, sphere, mean_square_distortion(sphere, faces, areas), share)
+                )
         return sphere

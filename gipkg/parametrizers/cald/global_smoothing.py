@@ -14,32 +14,11 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from gipkg.parametrizers.sphere.areas import signed_spherical_areas
+from gipkg.parametrizers.sphere.areas import mean_square_distortion
 
 _ROWS = 50
 """Parallels of the grid of equal areas that carries the density; twice as many meridians."""
 _LEAST_SHARE = 0.25
-
-
-def area_error(
-    sphere: NDArray[np.float64], faces: NDArray[np.int64], areas: NDArray[np.float64]
-) -> float:
-    """Compute the squared relative error of the faces' areas, averaged over the surface.
-
-    Parameters
-    ----------
-    sphere : (V, 3) float64 array
-        Unit vectors.
-    faces : (F, 3) int64 array
-    areas : (F,) float64 array
-        Of the faces on the surface, summing to 4π.
-
-    Returns
-    -------
-    float
-    """
-    errors = signed_spherical_areas(sphere, faces) - areas
-    return float((errors**2 / areas).sum() / (4 * np.pi))
 
 
 def smooth_globally(
@@ -72,11 +51,11 @@ def smooth_globally(
     """
     turned = np.roll(sphere, 2 - axis, axis=1)
     warp = _equalising_warp(turned, faces, areas, degree)
-    before = area_error(sphere, faces, areas)
+    before = mean_square_distortion(sphere, faces, areas)
     share = 1.0
     while share >= _LEAST_SHARE:
         moved = np.roll(warp.apply(turned, share), axis - 2, axis=1)
-        if area_error(moved, faces, areas) < before:
+        if mean_square_distortion(moved, faces, areas) < before:
             return moved, share
         share /= 2
     return sphere.copy(), 0.0

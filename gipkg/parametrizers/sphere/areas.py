@@ -59,6 +59,27 @@ def signed_spherical_areas(
     return 2 * np.arctan2(triple_products(sphere, faces), 1 + cosines)
 
 
+def mean_square_distortion(
+    sphere: NDArray[np.float64], faces: NDArray[np.int64], areas: NDArray[np.float64]
+) -> float:
+    """Mean over the mesh of (r - 1)², r being the area of a face on the sphere by its own.
+
+    Parameters
+    ----------
+    sphere : (V, 3) float64 array
+        Unit vectors.
+    faces : (F, 3) int64 array
+    areas : (F,) float64 array
+        Of the faces on the mesh, summing to 4π.
+
+    Returns
+    -------
+    float
+    """
+    excess = signed_spherical_areas(sphere, faces) - areas
+    return float((excess**2 / areas).sum() / (4 * np.pi))
+
+
 def flipped_faces(sphere: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.bool_]:
     """Faces whose cone from the origin is degenerate or turned inside out, decided exactly.
 

@@ -6,9 +6,12 @@ from hypothesis import strategies as st
 
 from gipkg.parametrizers.flow.authalic import AreaFlow
 from gipkg.parametrizers.flow.linear_elements import LinearElements
-from gipkg.parametrizers.flow.objective import mean_square_distortion
 from gipkg.parametrizers.flow.transfer import carry_all, carry_carefully, destinations
-from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
+from gipkg.parametrizers.sphere.areas import (
+    flipped_faces,
+    mean_square_distortion,
+    signed_spherical_areas,
+)
 from tests.support.shapes import icosphere
 
 MESH = icosphere(3)
