@@ -4,7 +4,7 @@ A fingerprint hashes the syntax trees of a module and of the gipkg modules it im
 those they import. Comments, docstrings and layout leave it unchanged. Nothing is imported:
 imports are read from the source, wherever in the file they stand, including the strings
 of lazy ones (``"gipkg.images"``). What only a type checker imports does not count, nor do the
-modules that find plugins and word errors: they choose, but compute nothing.
+contracts of plugins and the modules that find plugins and word errors: they compute nothing.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 _ROOT = Path(__file__).resolve().parent
 _MODULE_NAME = re.compile(r"gipkg(\.\w+)+")
 _NOT_COMPUTING = frozenset(
-    f"gipkg.{name}" for name in ("errors", "fingerprints", "parameters", "plugin_refs", "registry")
+    f"gipkg.{name}"
+    for name in ("api", "errors", "fingerprints", "parameters", "plugin_refs", "registry")
 )
 
 

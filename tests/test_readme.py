@@ -55,7 +55,7 @@ def test_the_two_commands_are_the_only_shell_blocks() -> None:
     commands = re.findall(r"^```bash\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
     assert [text.splitlines()[-1] for text in commands] == [
         "snakemake --cores 2 results/table1.csv",
-        "pytest",
+        "pytest -n 2",
     ]
 
 

@@ -131,7 +131,7 @@ def test_importing_gipkg_imports_nothing_else_of_it() -> None:
         import sys, gipkg
         loaded = [name for name in sys.modules if name.startswith("gipkg.")]
         assert not loaded and "numpy" not in sys.modules, loaded
-        assert "prepare" in dir(gipkg) and gipkg.SphericalMap.__module__ == "gipkg.api"
+        assert "prepare" in dir(gipkg) and gipkg.SphericalMap.__module__ == "gipkg.api.parametrizer"
     """
     subprocess.run([sys.executable, "-c", dedent(code)], check=True)
 
