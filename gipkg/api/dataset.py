@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from numpy.typing import NDArray
 
@@ -15,6 +15,9 @@ from gipkg.api.plugin import Plugin
 if TYPE_CHECKING:
     import trimesh
 
+Axis = Literal["x", "y", "z"]
+Part = Literal["train", "test"]
+
 
 @dataclass(frozen=True, slots=True)
 class Shape:
@@ -22,6 +25,8 @@ class Shape:
 
     id: str
     label: str
+    part: Part | None = None
+    """Where it is in the official split, if the database has one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +53,18 @@ class Volume:
 
 @dataclass(frozen=True, slots=True)
 class Protocol:
-    """Random splits: `train_per_class` shapes of every class train, the others test.
+    """How a database is split into a training and a test part.
 
-    A fraction between 0 and 1, such as 0.5, is a share of the class, rounded down.
+    Attributes
+    ----------
+    train_per_class : int or float or "official"
+        So many shapes of every class train, drawn at random, and the others test; a fraction
+        between 0 and 1, such as 0.5, is a share of the class, rounded down. ``"official"`` is
+        the split that the database is published with (:attr:`Shape.part`): all seeds have the
+        same one, and differ in what is learned alone.
     """
 
-    train_per_class: int | float
+    train_per_class: int | float | Literal["official"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +73,9 @@ class DatasetTags:
 
     generated: bool
     """Made by gipkg itself; never shown under a real database's name."""
-    shapes: int
-    classes: int
-    """How many there are with the default parameters."""
+    shapes: int | None
+    classes: int | None
+    """How many there are with the default parameters; None where that is the user's choice."""
     licence: str
     source: str
     """Address of the files, or how they are generated."""
@@ -73,12 +84,20 @@ class DatasetTags:
 
 
 class Dataset(Plugin):
-    """Name to shapes with classes, and the protocols they are split by."""
+    """Name to shapes with classes, and the protocols they are split by.
+
+    A database of rigid shapes that all stand upright overrides :attr:`upright`.
+    """
 
     tags: ClassVar[DatasetTags]
     protocols: ClassVar[Mapping[str, Protocol]]
     """Name of the row in the paper's table (``SHREC1``) -> how it is split. There is none where
     the shapes are not classified, but mapped."""
+
+    @property
+    def upright(self) -> Axis | None:
+        """Axis that points up in every shape; None, the default, where nothing does."""
+        return None
 
     @abstractmethod
     def available(self, root: Path) -> bool:

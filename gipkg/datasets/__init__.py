@@ -1,5 +1,5 @@
 """Databases by name: their shapes, classes and meshes, and the splits of the protocols."""
 
-from gipkg.datasets.splits import random_split
+from gipkg.datasets.splits import official_split, random_split, split
 
-__all__ = ["random_split"]
+__all__ = ["official_split", "random_split", "split"]

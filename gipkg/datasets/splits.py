@@ -1,20 +1,69 @@
-"""Random splits of a database into a training and a test part."""
+"""Splits of a database into a training and a test part: random ones and the official one."""
 
 from __future__ import annotations
 
 import zlib
 from collections import defaultdict
 from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 
 from gipkg.api import Shape
 from gipkg.errors import SplitError
 
+Parts = tuple[tuple[str, ...], tuple[str, ...]]
 
-def random_split(
-    shapes: Sequence[Shape], train_per_class: int | float, seed: int
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
+
+def split(
+    shapes: Sequence[Shape], train_per_class: int | float | Literal["official"], seed: int
+) -> Parts:
+    """Split a database as a protocol says; see :class:`gipkg.api.Protocol`.
+
+    Returns
+    -------
+    train, test : tuple of str
+        Identifiers of the two parts, each sorted.
+
+    Raises
+    ------
+    SplitError
+        As :func:`random_split` and :func:`official_split`.
+    """
+    if train_per_class == "official":
+        return official_split(shapes)
+    return random_split(shapes, train_per_class, seed)
+
+
+def official_split(shapes: Sequence[Shape]) -> Parts:
+    """Split a database into the parts that it is published with.
+
+    Returns
+    -------
+    train, test : tuple of str
+        Identifiers of the two parts, each sorted.
+
+    Raises
+    ------
+    SplitError
+        A shape is in neither part, or a part is empty.
+    """
+    astray = min((shape.id for shape in shapes if shape.part is None), default=None)
+    if astray is not None:
+        raise SplitError(
+            f"shape {astray!r} is in neither part: the database has no official split; give a "
+            "number or a share of training shapes instead"
+        )
+    train, test = (
+        tuple(sorted(shape.id for shape in shapes if shape.part == part))
+        for part in ("train", "test")
+    )
+    if not (train and test):
+        raise SplitError("one part of the official split is empty; both must have shapes")
+    return train, test
+
+
+def random_split(shapes: Sequence[Shape], train_per_class: int | float, seed: int) -> Parts:
     """Split every class at random into `train_per_class` training shapes and the others.
 
     The split depends on the identifiers, the classes and the seed alone, not on the order

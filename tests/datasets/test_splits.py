@@ -1,4 +1,4 @@
-"""Random splits: a partition, stratified, and a function of identifiers, classes and seed."""
+"""Splits: random ones depend on identifiers, classes and seed; the official one is as listed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gipkg.api import Shape
-from gipkg.datasets import random_split
+from gipkg.datasets import random_split, split
 from gipkg.errors import SplitError
 
 
@@ -60,3 +60,21 @@ def test_too_few_shapes_names_the_class():
 def test_at_least_one_shape_trains():
     with pytest.raises(SplitError, match="train_per_class"):
         random_split([Shape("a", "a"), Shape("b", "a")], 0, seed=0)
+
+
+def test_the_official_split_is_that_of_the_listing_whatever_the_seed():
+    shapes = [Shape(f"{c}{i}", c, "test" if i > 5 else "train") for c in "ba" for i in range(8)]
+    parts = {split(shapes, "official", seed) for seed in range(3)}
+    ((train, test),) = parts
+    assert test == ("a6", "a7", "b6", "b7")
+    assert sorted(train + test) == sorted(shape.id for shape in shapes)
+    assert split(shapes[::-1], "official", 0) == (train, test)
+    assert split(shapes, 3, 0) == random_split(shapes, 3, 0)
+
+
+def test_a_shape_outside_the_official_split_is_named():
+    shapes = [Shape("a", "a", "train"), Shape("b", "a", "test"), Shape("c", "a")]
+    with pytest.raises(SplitError, match="'c' is in neither part"):
+        split(shapes, "official", seed=0)
+    with pytest.raises(SplitError, match="empty"):
+        split(shapes[:1], "official", seed=0)

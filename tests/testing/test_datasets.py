@@ -72,6 +72,10 @@ class Unsplittable(Balls):
     protocols: ClassVar[dict[str, Protocol]] = {"Balls": Protocol(4)}
 
 
+class Partless(Balls):
+    protocols: ClassVar[dict[str, Protocol]] = {"Balls": Protocol("official")}
+
+
 class Absent(Balls):
     def available(self, root):
         return False
@@ -103,6 +107,7 @@ WRONG = {
     Unlicensed: {"tags-are-complete"},
     Unfiled: {"tags-are-complete", "is-absent-from-an-empty-folder"},
     Unsplittable: {"names-its-protocols", "splits-by-its-protocols"},
+    Partless: {"splits-by-its-protocols"},
     Absent: {"is-available-anywhere"},
     Littering: {"is-available-anywhere"},
     DicingBalls: {"loads-the-same-shape-twice"},

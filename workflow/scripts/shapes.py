@@ -1,4 +1,4 @@
-"""List the shapes of a database, their classes and the shards they are in."""
+"""List the shapes of a database: class, part of the official split if there is one, shard."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ root = Path(snakemake.config["data_root"])
 if not dataset.available(root):
     dataset.fetch(root)
 rows = [
-    (shape.id, shape.label, shard_of(shape.id, snakemake.params.shards))
+    (shape.id, shape.label, shape.part or "", shard_of(shape.id, snakemake.params.shards))
     for shape in dataset.shapes(root)
 ]
-write_csv(Path(snakemake.output[0]), ("id", "label", "shard"), rows)
+write_csv(Path(snakemake.output[0]), ("id", "label", "part", "shard"), rows)
