@@ -98,16 +98,14 @@ class VoxNet(Baseline):
         import torch
 
         from gipkg.baselines.voxnet.network import VoxelNetwork
+        from gipkg.learning.classifier import train_classifier
         from gipkg.learning.config import TrainingConfig
-        from gipkg.learning.experiment import learn_views
 
         # The layers of a grid take the place of the channels of an image.
-        return learn_views(
+        classifier = train_classifier(
             lambda classes: VoxelNetwork(SIZE, classes),
             torch.from_numpy(np.stack([representations[i] for i in train])),
             tuple(train.values()),
-            lambda shape_id: torch.tensor(representations[shape_id]),
-            test,
             training=TrainingConfig(
                 epochs=self.epochs,
                 minimum_steps=MINIMUM_STEPS,
@@ -121,3 +119,4 @@ class VoxNet(Baseline):
             device=device,
             checkpoint=checkpoint,
         )
+        return classifier.predict(lambda shape_id: torch.tensor(representations[shape_id]), test)

@@ -13,7 +13,7 @@ from gipkg.errors import DamagedFileError, LearningError
 from gipkg.learning import checkpoint as checkpoints
 from gipkg.learning import training as loop
 from gipkg.learning.config import NetworkConfig, TrainingConfig
-from gipkg.learning.experiment import train_and_predict
+from gipkg.learning.model import Model, load_model, train_model
 from gipkg.learning.prediction import Prediction
 from tests.learning.synthetic import synthetic_images
 
@@ -25,10 +25,15 @@ SHORT = TrainingConfig(epochs=8, minimum_steps=1, batch_size=12)
 LONGER = TrainingConfig(epochs=15, minimum_steps=1, batch_size=12)
 
 
-def run(images: Any = IMAGES, **changes: Any) -> Prediction:
+def trained(images: Any = IMAGES, **changes: Any) -> Model:
     arguments: dict[str, Any] = {"network": SMALL, "training": SHORT, "device": "cpu", **changes}
-    known = {i: LABELS[i] for i in TRAIN}  # the labels of the test part are not even there
-    return train_and_predict(images, known, TRAIN, TEST, **arguments)
+    # Neither images nor labels of the test part are there.
+    known, shown = ({i: those[i] for i in TRAIN} for those in (LABELS, images))
+    return train_model(shown, known, TRAIN, **arguments)
+
+
+def run(images: Any = IMAGES, **changes: Any) -> Prediction:
+    return trained(images, **changes).predict(images, TEST)
 
 
 @pytest.fixture(scope="module")
@@ -85,10 +90,7 @@ def test_views_are_pooled_by_their_mean(undisturbed: Prediction) -> None:
     # Each view predicted alone, as if it were a shape of its own.
     views = range(len(IMAGES[TEST[0]]))
     single = {f"view {v}": IMAGES[TEST[0]][v : v + 1] for v in views}
-    known = {i: LABELS[i] for i in TRAIN}
-    found = train_and_predict(
-        {**IMAGES, **single}, known, TRAIN, tuple(single), network=SMALL, training=SHORT
-    )
+    found = trained().predict(single, tuple(single))
     np.testing.assert_allclose(found.scores.mean(axis=0), undisturbed.scores[0], rtol=1e-4)
     np.testing.assert_allclose(
         found.embeddings.mean(axis=0), undisturbed.embeddings[0], rtol=1e-4, atol=1e-5
@@ -153,7 +155,7 @@ def test_a_process_killed_by_the_system_is_resumed(tmp_path: Path) -> None:
 import numpy as np
 from pathlib import Path
 from gipkg.learning import training as loop
-from tests.learning.test_experiment import LONGER, run
+from tests.learning.test_model import LONGER, run
 loop.SECONDS_BETWEEN_CHECKPOINTS = 0.0
 np.save({str(out)!r}, run(training=LONGER, checkpoint=Path({str(path)!r})).embeddings)
 """
@@ -207,3 +209,40 @@ def test_a_training_that_diverges_is_named() -> None:
     images = {**IMAGES, TRAIN[0]: np.full_like(IMAGES[TRAIN[0]], np.nan)}
     with pytest.raises(LearningError, match="diverged at step 0"):
         run(images)
+
+
+@pytest.mark.parametrize("shuffle", [False, True])
+def test_a_model_read_from_its_file_is_the_same_bit_by_bit(shuffle: bool, tmp_path: Path) -> None:
+    model = trained(training=SHORT.model_copy(update={"shuffle_pixels": shuffle, "epochs": 2}))
+    path = tmp_path / "models" / "0.model.npz"
+    model.save(path, about={"size": 40})
+    read = load_model(path)
+    assert_equal(read.predict(IMAGES, TEST), model.predict(IMAGES, TEST))
+    assert (read.about, read.network, read.classes) == ({"size": 40}, SMALL, model.classes)
+    first = path.read_bytes()
+    read.save(path)
+    assert path.read_bytes() == first
+
+
+def test_a_model_takes_the_images_that_it_learned_from(undisturbed: Prediction) -> None:
+    model = trained()
+    for views in (IMAGES[TEST[0]][:, :1], IMAGES[TEST[0]][:, :, 1:, 1:]):
+        with pytest.raises(LearningError, match=r"other: images are .* learned from \(2, 40, 40\)"):
+            model.predict({"other": views}, ["other"])
+    # Of any number of views.
+    model.predict({"other": IMAGES[TEST[0]][:1]}, ["other"])
+
+
+@pytest.mark.parametrize("damage", ["cut", "other", "weights"])
+def test_a_damaged_model_is_named(damage: str, tmp_path: Path) -> None:
+    path = tmp_path / "0.model.npz"
+    trained(training=SHORT.model_copy(update={"epochs": 1})).save(path)
+    if damage == "cut":
+        path.write_bytes(path.read_bytes()[:-1000])
+    elif damage == "other":
+        path.write_bytes(b"not a model")
+    else:
+        with np.load(path) as arrays:
+            np.savez(path, **{name: arrays[name] for name in arrays.files[:-3]})
+    with pytest.raises(DamagedFileError, match=r"0\.model\.npz"):
+        load_model(path)
