@@ -5,6 +5,7 @@ configfile: Path(workflow.basedir) / "config" / "config.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/inputs.smk"
 include: "workflow/rules/datasets.smk"
 include: "workflow/rules/surfaces.smk"
 include: "workflow/rules/parametrize.smk"
@@ -20,7 +21,7 @@ include: "workflow/rules/figures.smk"
 rule all:
     default_target: True
     input:
-        "results/table1.csv",
+        expand("results/{table}.csv", table=[name for name in TABLES if TABLES[name]["databases"]]),
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",
         "results/figure2.png",

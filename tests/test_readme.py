@@ -48,7 +48,7 @@ def test_a_method_of_ones_own_is_named_as_shown(tmp_path: Path) -> None:
     (tmp_path / "mine.py").write_text(LIKE_CONFORMAL)
     done = Workdir(tmp_path).run("--dry-run", config=yaml.safe_load(block("yaml")))
     assert done.returncode == 0, done.stdout
-    assert "results/evaluation/tiny/mine/Tiny1.json" in done.stdout
+    assert "results/evaluation/table1/tiny/mine/Tiny1.json" in done.stdout
 
 
 def test_the_two_commands_are_the_only_shell_blocks() -> None:

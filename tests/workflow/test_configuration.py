@@ -15,23 +15,30 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
 @pytest.mark.parametrize(
     ("config", "words"),
     [
-        ({"colums": []}, ["the top level", "'colums'", "columns", "seeds"]),
+        ({"colums": []}, ["the top level", "'colums'", "table1", "eigenpairs"]),
         ({"eigenpairs": "many"}, ["eigenpairs", "'many'", "integer"]),
         ({"images": {"sampling": "authors'"}}, ["images.sampling", "equal-area", "authors"]),
-        ({"databases": ["tini"]}, ["databases", "'tini'", "did you mean 'tiny'", "shrec11"]),
+        ({"table2": {"seed": [0]}}, ["table2", "'seed'", "keys: databases, columns, seeds"]),
         (
-            {"columns": [{"column": "A", **LEARNED, "parametrizer": "authalik"}]},
-            ["columns.0.parametrizer", "did you mean 'authalic'", "conformal"],
+            {"table1": {"databases": ["tini"]}},
+            ["table1.databases", "'tini'", "did you mean 'tiny'", "shrec11"],
         ),
         (
-            {"columns": [{"column": "A", "baseline": "zernike", **LEARNED}]},
-            ["columns.0", "'network'", "keys: column, baseline, paper"],
+            {"table1": {"columns": [{"column": "A", **LEARNED, "parametrizer": "authalik"}]}},
+            ["table1.columns.0.parametrizer", "did you mean 'authalic'", "conformal"],
         ),
         (
-            {"columns": [{"column": "A b", **LEARNED}, {"column": "a-B", **LEARNED}]},
-            ["columns.1", "'a-b' names two columns"],
+            {"table1": {"columns": [{"column": "A", "baseline": "zernike", **LEARNED}]}},
+            ["table1.columns.0", "'network'", "keys: column, baseline, paper"],
         ),
-        ({"databases": ["tosca"]}, ["databases", "'tosca' has no protocol"]),
+        (
+            {"table2": {"columns": [{"column": "A b", **LEARNED}, {"column": "a-B", **LEARNED}]}},
+            ["table2.columns.1", "'a-b' names two columns"],
+        ),
+        (
+            {"table1": {"databases": ["tosca"]}},
+            ["table1.databases", "'tosca' has no protocol", "datasets.tosca.protocols"],
+        ),
         (
             {"distortion": {"methods": [{"parametrizer": "authalik"}]}},
             ["distortion.methods.0.parametrizer", "did you mean 'authalic'"],
@@ -87,7 +94,7 @@ def test_a_database_asked_for_by_name_and_not_to_be_had(tmp_path: Path) -> None:
     nowhere = "http://127.0.0.1:9"
     done = Workdir(tmp_path).run(
         "results/datasets/shrec11/shapes.csv",
-        config={"databases": ["shrec11"]},
+        config={"table1": {"databases": ["shrec11"]}},
         environment={"http_proxy": nowhere, "https_proxy": nowhere, "no_proxy": ""},
     )
     assert done.returncode != 0
@@ -97,21 +104,21 @@ def test_a_database_asked_for_by_name_and_not_to_be_had(tmp_path: Path) -> None:
 
 
 def test_the_generated_database_stands_in_where_no_real_one_is(tmp_path: Path) -> None:
-    done = Workdir(tmp_path).run("--dry-run", config={"databases": "auto"})
-    assert "results/evaluation/articulated/ours/Articulated1.json" in done.stdout
-    assert "results/evaluation/shrec11" not in done.stdout
+    done = Workdir(tmp_path).run("--dry-run", config={"table1": {"databases": "auto"}})
+    assert "results/evaluation/table1/articulated/ours/Articulated1.json" in done.stdout
+    assert "results/evaluation/table1/shrec11" not in done.stdout
 
 
 def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None:
-    config = {"databases": "auto", "data_root": str(data_root)}
+    config = {"table1": {"databases": "auto"}, "data_root": str(data_root)}
     done = Workdir(tmp_path).run("--dry-run", config=config)
-    assert "results/evaluation/shrec11/ours/SHREC2.json" in done.stdout
-    assert "results/evaluation/articulated" not in done.stdout
+    assert "results/evaluation/table1/shrec11/ours/SHREC2.json" in done.stdout
+    assert "results/evaluation/table1/articulated" not in done.stdout
 
 
 def test_what_is_there_to_be_mapped_is_not_classified(tmp_path: Path, data_root: Path) -> None:
     config = {
-        "databases": "auto",
+        "table1": {"databases": "auto"},
         "distortion": {"databases": "auto"},
         "data_root": str(data_root),
     }
@@ -119,12 +126,13 @@ def test_what_is_there_to_be_mapped_is_not_classified(tmp_path: Path, data_root:
     assert "results/distortion/tosca/authalic.csv" in done.stdout
     assert "results/distortion/tosca-highres/conformal.csv" in done.stdout
     assert "results/distortion/shrec11" not in done.stdout
-    assert "results/evaluation/tosca" not in done.stdout
+    assert "results/evaluation/table1/tosca" not in done.stdout
 
 
 def test_the_variant_as_in_the_paper_can_be_chosen(tmp_path: Path) -> None:
     column = {**LEARNED, "descriptors": ["hks-raw"], "network": "shallow-2016"}
-    done = Workdir(tmp_path).run("--dry-run", config={"columns": [{"column": "2016", **column}]})
+    config = {"table1": {"columns": [{"column": "2016", **column}]}}
+    done = Workdir(tmp_path).run("--dry-run", config=config)
     assert done.returncode == 0, done.stdout
     assert "results/images/tiny/authalic/hks-raw/0.npz" in done.stdout
 

@@ -10,8 +10,11 @@ import pytest
 
 from tests.workflow.workdir import REPOSITORY, Workdir
 
-AFTER_IMAGES = {"complete": 2, "learn": 4, "evaluate": 2, "table1": 1, "all": 1}
-"""Jobs that depend on the images of both parametrizers, for one protocol and two seeds."""
+AFTER_HKS = {"complete": 2, "learn": 4, "evaluate": 2, "score_table": 1, "all": 1}
+"""Jobs that depend on Table 1's images: two parametrizers, one protocol and two seeds."""
+
+AFTER_IMAGES = {"complete": 3, "learn": 5, "evaluate": 3, "score_table": 2, "all": 1}
+"""Table 2 adds one column and one seed."""
 
 EXTENT = '''
 from typing import ClassVar
@@ -45,15 +48,15 @@ AFTER_MAPS = {"table_distortion": 1, "table_reconstruction": 1, "figure7": 1}
 
 def test_a_descriptors_parameter_leaves_maps_and_baselines_alone(smoke: Workdir) -> None:
     planned = smoke.planned({"descriptors": {"hks": {"plugin": "hks", "times": 7}}})
-    assert planned == {"describe": 2, "images": 4, **AFTER_IMAGES}
+    assert planned == {"describe": 2, "images": 4, **AFTER_HKS}
 
 
-def test_a_parametrizers_parameter_touches_one_column(smoke: Workdir) -> None:
+def test_a_parametrizers_parameter_touches_its_own_columns(smoke: Workdir) -> None:
     changed = {"authalic": {"plugin": "authalic", "max_iterations": 7}}
     planned = smoke.planned({"parametrizers": changed})
-    one_column = {"complete": 1, "learn": 2, "evaluate": 1, "table1": 1, "all": 1}
+    columns = {"complete": 2, "learn": 3, "evaluate": 2, "score_table": 2, "all": 1}
     of_the_map = {"distort": 1, "reconstruct": 1, **AFTER_MAPS, **DRAWN}
-    assert planned == {"parametrize": 2, "images": 2, **of_the_map, **one_column}
+    assert planned == {"parametrize": 2, "images": 4, **of_the_map, **columns}
 
 
 def test_another_way_to_measure_distortion_maps_nothing_again(smoke: Workdir) -> None:
@@ -70,16 +73,16 @@ def test_another_shape_is_drawn_from_its_own_surface(smoke: Workdir) -> None:
 
 
 def test_another_seed_adds_its_splits_and_nothing_else(smoke: Workdir) -> None:
-    planned = smoke.planned({"seeds": [0, 1, 2]})
+    planned = smoke.planned({"table1": {"seeds": [0, 1, 2]}})
     new = {"split": 1, "learn": 2, "classify": 2}
-    assert planned == {**new, "evaluate": 4, "table1": 1, "all": 1}
+    assert planned == {**new, "evaluate": 4, "score_table": 1, "all": 1}
 
 
 def test_the_failures_allowed_do_not_train_again(smoke: Workdir) -> None:
-    assert smoke.planned({"max_failures": 0}) == {"complete": 4, "table1": 1, "all": 1}
+    assert smoke.planned({"max_failures": 0}) == {"complete": 5, "score_table": 2, "all": 1}
 
 
-TABLES = {"table1": 1, "table_distortion": 1, "all": 1}
+TABLES = {"score_table": 2, "table_distortion": 1, "all": 1}
 """Jobs that read a file of the checkout itself, which lies elsewhere in a copy of it."""
 
 
@@ -87,7 +90,7 @@ TABLES = {"table1": 1, "table_distortion": 1, "all": 1}
     ("addition", "expected"),
     [
         ("\n# A remark changes nothing.\n", TABLES),
-        ("\nEDITED = 1\n", {"images": 4, **AFTER_IMAGES, "reconstruct": 2, **AFTER_MAPS, **DRAWN}),
+        ("\nEDITED = 1\n", {"images": 6, **AFTER_IMAGES, "reconstruct": 2, **AFTER_MAPS, **DRAWN}),
     ],
 )
 def test_an_edited_module_reruns_what_it_computes(
@@ -110,7 +113,7 @@ def test_a_file_of_ones_own_becomes_a_column(smoke: Workdir, tmp_path: Path) -> 
     ]
     config = {
         "baselines": {"box": {"plugin": "extent.py:Extent", "power": 0.5}},
-        "columns": columns,
+        "table1": {"columns": columns},
     }
     done = workdir.run(config=config)
     assert done.returncode == 0, done.stdout
@@ -126,7 +129,7 @@ def test_a_file_of_ones_own_becomes_a_column(smoke: Workdir, tmp_path: Path) -> 
     (tmp_path / "extent.py").write_text(EXTENT.replace("np.ptp", "2 * np.ptp"))
     assert workdir.planned(config) == {
         **{"represent": 2, "classify": 2, "complete": 1},
-        **{"evaluate": 1, "table1": 1, "all": 1},
+        **{"evaluate": 1, "score_table": 1, "all": 1},
     }
 
 

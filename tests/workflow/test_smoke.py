@@ -27,6 +27,17 @@ def test_the_table_has_a_row_a_split_and_every_figure_in_its_range(smoke: Workdi
     assert float(row["ShapeDNA accuracy mean"]) > 30
 
 
+def test_the_tables_keep_their_columns_of_one_heading_apart(smoke: Workdir) -> None:
+    with (smoke.path / "results/table2.csv").open() as stream:
+        (row,) = csv.DictReader(stream)
+    assert list(row)[2::4] == ["Ours accuracy mean"]
+    assert "rigid shapes" in (smoke.path / "results/table2.md").read_text().splitlines()[0]
+    for table, descriptor in (("table1", "hks"), ("table2", "principal")):
+        provenance = json.loads((smoke.path / f"results/{table}.json").read_text())
+        assert list(provenance["plugins"]["descriptor"]) == [descriptor]
+        assert (smoke.path / f"results/learning/{table}/tiny/ours/Tiny1-0.npz").exists()
+
+
 def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
     with (smoke.path / "results/datasets/tiny/shapes.csv").open() as stream:
         ids = {row["id"] for row in csv.DictReader(stream)}
@@ -132,8 +143,9 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
 
 def test_every_training_left_its_seconds_among_the_timings(smoke: Workdir) -> None:
     results = smoke.path / "results"
-    trained = [*results.glob("learning/tiny/*/Tiny1-*"), *results.glob("baselines/tiny/*/Tiny1-*")]
-    assert len(trained) == 8
+    learned = [*results.glob("learning/*/tiny/*/Tiny1-*")]
+    trained = [*learned, *results.glob("baselines/tiny/*/Tiny1-*")]
+    assert len(trained) == 9
     for prediction in trained:
         timing = results / "benchmarks" / prediction.relative_to(results).with_suffix(".json")
         seconds = json.loads(timing.read_text())
@@ -150,7 +162,8 @@ def test_the_provenance_says_what_made_the_table(smoke: Workdir) -> None:
     provenance = json.loads((smoke.path / "results/table1.json").read_text())
     assert provenance["gipkg"]["version"]
     assert provenance["libraries"]["numpy"] == np.__version__
-    assert provenance["config"]["seeds"] == [0, 1]
+    assert provenance["config"]["table1"]["seeds"] == [0, 1]
+    assert "table2" not in provenance["config"]
     assert provenance["plugins"]["parametrizer"]["authalic"]["code"]
     assert provenance["networks"]["ours"]["training"]["minimum_steps"] == 20
     assert provenance["databases"]["tiny"]["failures"]["Ours"] == {}
@@ -189,6 +202,6 @@ def test_a_damaged_intermediate_file_is_named(smoke: Workdir, tmp_path: Path) ->
     content = (tmp_path / damaged).read_bytes()
     (tmp_path / damaged).unlink()
     (tmp_path / damaged).write_bytes(content[: len(content) // 2])
-    done = workdir.run("results/learning/tiny/ours/Tiny1-0.npz", "--forcerun", "learn")
+    done = workdir.run("results/learning/table1/tiny/ours/Tiny1-0.npz", "--forcerun", "learn")
     assert done.returncode != 0
     assert f"DamagedFileError: {damaged}" in done.stdout

@@ -77,11 +77,11 @@ def slug(column):
     return re.sub("[^a-z0-9]+", "-", column.lower()).strip("-")
 
 
-def chosen_columns():
-    """Return the columns by slug, every reference in them checked."""
+def chosen_columns(table):
+    """Return the columns of a table by slug, every reference in them checked."""
     columns = {}
-    for number, column in enumerate(config["columns"]):
-        key = f"columns.{number}"
+    for number, column in enumerate(config[table]["columns"]):
+        key = f"{table}.columns.{number}"
         for field, section in (("baseline", "baselines"), ("parametrizer", "parametrizers")):
             if field in column:
                 require_defined(f"{key}.{field}", column[field], section)
@@ -114,20 +114,39 @@ def chosen_methods():
     return {method["parametrizer"]: method.get("paper") for method in methods}
 
 
-def chosen_databases(key, asked, suits):
-    """Return the databases asked for under a key; by default the real ones at hand that suit.
+def chosen_databases(section, suits, upright=False):
+    """Return the databases that a section asks for; by default the real ones at hand that suit.
 
-    Where there is none of them, the generated ones stand in.
+    Where there is none of them, the generated ones stand in. By default shapes that stand upright
+    and shapes that do not are never mixed.
     """
+    asked = config[section]["databases"]
     if asked != "auto":
         for name in asked:
-            require_defined(key, name, "datasets")
+            require_defined(f"{section}.databases", name, "datasets")
         return asked
     root = Path(config["data_root"])
     plugins = {name: dataset_plugin(name) for name in config["datasets"]}
+    plugins = {name: one for name, one in plugins.items() if (one.upright is not None) == upright}
     real = [name for name, plugin in plugins.items() if not plugin.tags.generated]
     found = [name for name in real if suits(name) and plugins[name].available(root)]
     return found or [name for name in plugins if name not in real]
+
+
+def chosen_tables():
+    """Return what the tables of scores hold: table -> columns by slug, databases and seeds."""
+    tables = {}
+    for name, upright in (("table1", False), ("table2", True)):
+        databases = chosen_databases(name, protocols_of, upright)
+        for database in databases:
+            if not protocols_of(database):
+                raise WorkflowError(
+                    f"configuration, {name}.databases: {database!r} has no protocol to split it "
+                    f"by; datasets.{database}.protocols can name one"
+                )
+        columns, seeds = chosen_columns(name), config[name]["seeds"]
+        tables[name] = {"columns": columns, "databases": databases, "seeds": seeds}
+    return tables
 
 
 def chosen_subject():
@@ -146,7 +165,7 @@ def dataset_plugin(name):
 
 
 def protocols_of(database):
-    """Return how a database is split: protocol -> shapes of each class that train."""
+    """Return how a database is split: protocol -> what trains (gipkg.api.Protocol)."""
     own = config["datasets"][database].get("protocols")
     if own:
         return own
@@ -164,76 +183,15 @@ def alternatives(names):
     return "|".join(map(re.escape, names)) or "(?!)"
 
 
-def shards_of(pattern):
-    """Return an input function: the files of all shards of a database, in order."""
-
-    def shards(wildcards):
-        count = config["datasets"][wildcards.database]["shards"]
-        return expand(pattern, shard=range(count), allow_missing=True)
-
-    return shards
-
-
-def column_shards(wildcards):
-    """Return the last files of a column that are made shape by shape."""
-    column = COLUMNS[wildcards.column]
-    if "baseline" in column:
-        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{shard}}.npz"
-    else:
-        images = f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
-        pattern = f"results/images/{{database}}/{images}/{{shard}}.npz"
-    return shards_of(pattern)(wildcards)
-
-
-def channels(wildcards):
-    """Return the shards of the descriptors that an image shows, in the order of its name."""
-    return expand(
-        "results/descriptors/{database}/{descriptor}/{shard}.npz",
-        descriptor=wildcards.descriptors.split("+"),
-        allow_missing=True,
-    )
-
-
-def predictions(wildcards):
-    """Return the predictions of a column under one protocol, one for each seed."""
-    column = COLUMNS[wildcards.column]
-    if "baseline" in column:
-        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{protocol}}-{{seed}}.npz"
-    else:
-        pattern = "results/learning/{database}/{column}/{protocol}-{seed}.npz"
-    return expand(pattern, seed=config["seeds"], allow_missing=True)
-
-
-def figure_params(figure):
-    """Return what the script of one of Figures 2 to 4 depends on beside its input."""
-    chosen = config["figures"][figure]
-    return {
-        "config": chosen,
-        "plugins": {
-            "dataset": picked(DATASETS, [SUBJECT["database"]]),
-            "parametrizer": picked(PARAMETRIZERS, chosen["parametrizers"]),
-        },
-        "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),
-    }
-
-
 require_valid(config)
 
-OTHER_RESULTS = ("distortion", "reconstruction", "figures")
-"""Sections of the configuration that Table 1 does not depend on."""
-
-COLUMNS = chosen_columns()
-DATABASES = chosen_databases("databases", config["databases"], protocols_of)
-PROTOCOLS = {database: protocols_of(database) for database in DATABASES}
-LEARNED = [name for name, column in COLUMNS.items() if "network" in column]
+TABLES = chosen_tables()
+COLUMNS = [column for table in TABLES.values() for column in table["columns"].values()]
+LEARNED = [column for column in COLUMNS if "network" in column]
+CLASSIFIED = [database for table in TABLES.values() for database in table["databases"]]
+PROTOCOLS = {database: protocols_of(database) for database in CLASSIFIED}
 METHODS = chosen_methods()
-MAPPED = chosen_databases("distortion.databases", config["distortion"]["databases"], is_mapped_only)
-for name, protocols in PROTOCOLS.items():
-    if not protocols:
-        raise WorkflowError(
-            f"configuration, databases: {name!r} has no protocol to split it by; "
-            f"datasets.{name}.protocols can name one"
-        )
+MAPPED = chosen_databases("distortion", is_mapped_only)
 for name in config["reconstruction"]["parametrizers"]:
     require_defined("reconstruction.parametrizers", name, "parametrizers")
 SUBJECT = chosen_subject()
@@ -241,11 +199,11 @@ for figure in ("figure2", "figure3", "figure4"):
     for name in config["figures"][figure]["parametrizers"]:
         require_defined(f"figures.{figure}.parametrizers", name, "parametrizers")
 
-DATASETS = instances("dataset", (*DATABASES, *MAPPED, SUBJECT["database"]))
+DATASETS = instances("dataset", (*CLASSIFIED, *MAPPED, SUBJECT["database"]))
 PARAMETRIZERS = instances(
     "parametrizer",
     (
-        *(COLUMNS[name]["parametrizer"] for name in LEARNED),
+        *(column["parametrizer"] for column in LEARNED),
         *METHODS,
         *config["reconstruction"]["parametrizers"],
         *config["figures"]["figure2"]["parametrizers"],
@@ -253,13 +211,9 @@ PARAMETRIZERS = instances(
         *config["figures"]["figure4"]["parametrizers"],
     ),
 )
-DESCRIPTORS = instances(
-    "descriptor", (one for name in LEARNED for one in COLUMNS[name]["descriptors"])
-)
-BASELINES = instances(
-    "baseline", (column["baseline"] for column in COLUMNS.values() if "baseline" in column)
-)
-NETWORKS = {name: network(COLUMNS[name]["network"]) for name in LEARNED}
+DESCRIPTORS = instances("descriptor", (one for column in LEARNED for one in column["descriptors"]))
+BASELINES = instances("baseline", (one["baseline"] for one in COLUMNS if "baseline" in one))
+NETWORKS = {column["network"]: network(column["network"]) for column in LEARNED}
 
 SUBJECT_SHARD = shard_of(SUBJECT["shape"], config["datasets"][SUBJECT["database"]]["shards"])
 SUBJECT_SURFACES = f"results/surfaces/{SUBJECT['database']}/{SUBJECT_SHARD}.npz"
@@ -270,7 +224,8 @@ wildcard_constraints:
     parametrizer=alternatives(PARAMETRIZERS),
     descriptor=alternatives(DESCRIPTORS),
     baseline=alternatives(BASELINES),
-    column=alternatives(COLUMNS),
+    table=alternatives(TABLES),
+    column="[a-z0-9-]+",
     protocol="[A-Za-z0-9]+",
     seed=r"\d+",
     shard=r"\d+",

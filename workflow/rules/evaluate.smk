@@ -2,9 +2,9 @@ rule complete:
     input:
         column_shards,
     output:
-        "results/failures/{database}/{column}.json",
+        "results/failures/{table}/{database}/{column}.json",
     log:
-        "results/logs/failures/{database}/{column}.log",
+        "results/logs/failures/{table}/{database}/{column}.log",
     conda:
         "../../environment.yml"
     params:
@@ -16,19 +16,15 @@ rule complete:
 rule evaluate:
     input:
         predictions=predictions,
-        splits=expand(
-            "results/datasets/{database}/splits/{protocol}-{seed}.csv",
-            seed=config["seeds"],
-            allow_missing=True,
-        ),
+        splits=splits,
     output:
-        "results/evaluation/{database}/{column}/{protocol}.json",
+        "results/evaluation/{table}/{database}/{column}/{protocol}.json",
     log:
-        "results/logs/evaluation/{database}/{column}/{protocol}.log",
+        "results/logs/evaluation/{table}/{database}/{column}/{protocol}.log",
     conda:
         "../../environment.yml"
     params:
-        seeds=config["seeds"],
+        seeds=lookup("{table}/seeds", within=TABLES),
         code=fingerprint_module("gipkg.evaluation.scores"),
     script:
         "../scripts/evaluate.py"

@@ -2,18 +2,20 @@ rule learn:
     input:
         split="results/datasets/{database}/splits/{protocol}-{seed}.csv",
         images=column_shards,
-        complete=ancient("results/failures/{database}/{column}.json"),
+        complete=ancient("results/failures/{table}/{database}/{column}.json"),
     output:
-        prediction="results/learning/{database}/{column}/{protocol}-{seed}.npz",
-        seconds="results/benchmarks/learning/{database}/{column}/{protocol}-{seed}.json",
+        prediction="results/learning/{table}/{database}/{column}/{protocol}-{seed}.npz",
+        model="results/learning/{table}/{database}/{column}/{protocol}-{seed}.model.npz",
+        seconds="results/benchmarks/learning/{table}/{database}/{column}/{protocol}-{seed}.json",
     log:
-        "results/logs/learning/{database}/{column}/{protocol}-{seed}.log",
+        "results/logs/learning/{table}/{database}/{column}/{protocol}-{seed}.log",
     benchmark:
-        "results/benchmarks/learning/{database}/{column}/{protocol}-{seed}.tsv"
+        "results/benchmarks/learning/{table}/{database}/{column}/{protocol}-{seed}.tsv"
     conda:
         "../../environment.yml"
     params:
-        network=lookup("{column}", within=NETWORKS),
+        network=column_network,
+        recipe=recipe,
         code=fingerprint_module("gipkg.learning"),
     script:
         "../scripts/learn.py"

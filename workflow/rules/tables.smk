@@ -1,39 +1,29 @@
-rule table1:
+rule score_table:
     input:
-        evaluations=[
-            f"results/evaluation/{database}/{column}/{protocol}.json"
-            for database in DATABASES
-            for protocol in PROTOCOLS[database]
-            for column in COLUMNS
-        ],
-        failures=expand(
-            "results/failures/{database}/{column}.json", database=DATABASES, column=COLUMNS
-        ),
-        surveys=expand("results/surfaces/{database}.json", database=DATABASES),
-        reference=Path(workflow.basedir) / "results" / "reference" / "table1.csv",
+        evaluations=evaluations,
+        failures=table_cells("results/failures/{table}/{database}/{column}.json"),
+        surveys=table_surveys,
+        reference=lambda wildcards: Path(workflow.basedir)
+        / f"results/reference/{wildcards.table}.csv",
     output:
-        csv="results/table1.csv",
-        markdown="results/table1.md",
-        provenance="results/table1.json",
+        csv="results/{table}.csv",
+        markdown="results/{table}.md",
+        provenance="results/{table}.json",
     log:
-        "results/logs/table1.log",
+        "results/logs/{table}.log",
     conda:
         "../../environment.yml"
     params:
-        config={key: part for key, part in config.items() if key not in OTHER_RESULTS},
-        rows=[(database, protocol) for database in DATABASES for protocol in PROTOCOLS[database]],
-        plugins={
-            "dataset": picked(DATASETS, DATABASES),
-            "parametrizer": picked(
-                PARAMETRIZERS, (COLUMNS[name]["parametrizer"] for name in LEARNED)
-            ),
-            "descriptor": DESCRIPTORS,
-            "baseline": BASELINES,
-        },
-        networks=NETWORKS,
-        code=fingerprint_module("gipkg.reporting"),
+        config=table_config,
+        rows=table_rows,
+        plugins=table_plugins,
+        networks=table_networks,
+        code=[
+            fingerprint_module(name)
+            for name in ("gipkg.reporting.score_table", "gipkg.reporting.notes")
+        ],
     script:
-        "../scripts/table1.py"
+        "../scripts/score_table.py"
 
 
 rule table_distortion:

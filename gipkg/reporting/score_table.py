@@ -1,4 +1,4 @@
-"""Table 1 of the paper: classification and retrieval, a row for each database and split."""
+"""Tables 1 and 2 of the paper: classification and retrieval, a row a database and split."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ from typing import Any
 
 from gipkg.files import read_csv
 
+TITLES = {
+    "table1": "Table 1: classification and retrieval of non-rigid shapes",
+    "table2": "Table 2: classification and retrieval of rigid shapes",
+}
 METRICS = ("accuracy", "mAP")
 """Accuracy in percent, mean average precision in 0 to 1, as the paper prints them."""
 
@@ -61,7 +65,8 @@ class Reference:
     methods : tuple of str
         Its columns, in order.
     figures : dict
-        (row, method) -> accuracy and mAP as printed; what the paper leaves out is left out.
+        (row, method) -> accuracy in percent and mAP in 0 to 1 with the digits printed; what the
+        paper leaves out is left out, and is empty where it leaves out the mAP alone.
     """
 
     methods: tuple[str, ...]
@@ -113,6 +118,7 @@ def as_csv(rows: Sequence[Row], columns: Sequence[str]) -> tuple[list[str], list
 
 
 def as_markdown(
+    title: str,
     rows: Sequence[Row],
     columns: Mapping[str, str | None],
     reference: Reference,
@@ -122,6 +128,7 @@ def as_markdown(
 
     Parameters
     ----------
+    title : str
     rows : sequence of Row
     columns : mapping
         Heading -> name of the same method in the paper, None where it has none.
@@ -130,7 +137,7 @@ def as_markdown(
         What a reader has to know, a paragraph each.
     """
     lines = [
-        "# Table 1: classification and retrieval of non-rigid shapes",
+        f"# {title}",
         "",
         "Accuracy in % / mean average precision: mean ± standard deviation over random splits.",
         "The paper's own figures stand below ours, in italics.",
@@ -142,9 +149,7 @@ def as_markdown(
         lines.append(_line([f"**{row.split}**", *(_measured(row.cells[name]) for name in columns)]))
         printed = [reference.figures.get((row.split, name or "")) for name in columns.values()]
         if any(printed):
-            cells = [
-                f"*{figures[0]} / {figures[1]}*" if figures else _ABSENT for figures in printed
-            ]
+            cells = [f"*{_as_printed(figures)}*" if figures else _ABSENT for figures in printed]
             lines.append(_line(["*in the paper*", *cells]))
     lines += ["", "## Notes", "", *(f"- {note}" for note in notes)]
     lines += ["", "## The paper's table in full", "", *_printed(reference)]
@@ -153,7 +158,7 @@ def as_markdown(
 
 def _printed(reference: Reference) -> list[str]:
     splits = list(dict.fromkeys(split for split, _ in reference.figures))
-    cells = {key: " / ".join(figures) for key, figures in reference.figures.items()}
+    cells = {key: _as_printed(figures) for key, figures in reference.figures.items()}
     return [
         _line(["", *reference.methods]),
         _line(["---"] * (len(reference.methods) + 1)),
@@ -162,6 +167,10 @@ def _printed(reference: Reference) -> list[str]:
             for split in splits
         ),
     ]
+
+
+def _as_printed(figures: tuple[str, str]) -> str:
+    return " / ".join(figure or _ABSENT for figure in figures)
 
 
 def _measured(cell: Cell) -> str:

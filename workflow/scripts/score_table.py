@@ -1,11 +1,11 @@
-"""Set Table 1 from the scores: for programs, for readers, and where it comes from."""
+"""Set a table from its scores: for programs, for readers, and where it comes from."""
 
 import json
 from pathlib import Path
 from typing import Any
 
 from gipkg.files import write_csv, write_json, write_text
-from gipkg.reporting import notes, table1
+from gipkg.reporting import notes, score_table
 from gipkg.reporting.provenance import environment
 from gipkg.reporting.survey import Survey
 
@@ -13,7 +13,9 @@ import job
 
 job.start(snakemake)
 config, rows = snakemake.params.config, snakemake.params.rows
-headings = [column["column"] for column in config["columns"]]
+name = snakemake.wildcards.table
+columns = config[name]["columns"]
+headings = [column["column"] for column in columns]
 databases = list(dict.fromkeys(database for database, _ in rows))
 plugins = job.plugins(snakemake.params.plugins)
 
@@ -25,7 +27,7 @@ def read(path: str) -> Any:
 
 evaluations = map(read, snakemake.input.evaluations)
 table = [
-    table1.Row(*row, {heading: table1.Cell.of(next(evaluations)) for heading in headings})
+    score_table.Row(*row, {one: score_table.Cell.of(next(evaluations)) for one in headings})
     for row in rows
 ]
 surveys = dict(zip(databases, map(read, snakemake.input.surveys), strict=True))
@@ -35,26 +37,28 @@ failures = {database: {heading: next(lost) for heading in headings} for database
 text = [
     notes.database_note(
         database,
-        [split for name, split in rows if name == database],
+        [split for one, split in rows if one == database],
         plugins["dataset", database],
         Survey(**surveys[database]),
     )
     for database in databases
 ]
-text += [notes.column_note(column, plugins) for column in config["columns"]]
+text += [notes.column_note(column, plugins) for column in columns]
 text += [
     notes.failure_note(heading, database, failures[database][heading])
     for database in databases
     for heading in headings
     if failures[database][heading]
 ]
-text.append(notes.seeds_note(config["seeds"]))
+text.append(notes.seeds_note(config[name]["seeds"]))
 
-header, lines = table1.as_csv(table, headings)
+header, lines = score_table.as_csv(table, headings)
 write_csv(Path(snakemake.output.csv), header, lines)
-in_paper = {column["column"]: column.get("paper") for column in config["columns"]}
-reference = table1.read_reference(Path(snakemake.input.reference))
-write_text(Path(snakemake.output.markdown), table1.as_markdown(table, in_paper, reference, text))
+in_paper = {column["column"]: column.get("paper") for column in columns}
+reference = score_table.read_reference(Path(snakemake.input.reference))
+title = score_table.TITLES[name]
+markdown = score_table.as_markdown(title, table, in_paper, reference, text)
+write_text(Path(snakemake.output.markdown), markdown)
 provenance = {
     **environment(),
     "config": config,

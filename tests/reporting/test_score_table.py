@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from gipkg.reporting.table1 import Cell, Reference, Row, as_csv, as_markdown, read_reference
+from gipkg.reporting.score_table import Cell, Reference, Row, as_csv, as_markdown, read_reference
 
-REFERENCE = Path(__file__).resolve().parents[2] / "results" / "reference" / "table1.csv"
+REFERENCES = Path(__file__).resolve().parents[2] / "results" / "reference"
 
 ROWS = [
     Row("shrec11", "SHREC1", {"Mine": Cell((90.0, 92.0), (0.5, 0.6)), "New": Cell((1.0,), (0.1,))}),
@@ -38,7 +38,10 @@ def test_the_csv_has_a_column_for_every_figure() -> None:
 
 def test_the_papers_figures_stand_below_their_own_row_and_column_only() -> None:
     reference = Reference(("A", "B"), {("SHREC1", "A"): ("88.6", "0.65")})
-    text = as_markdown(ROWS, {"Mine": "A", "New": None}, reference, ["First note.", "Second."])
+    text = as_markdown(
+        "A title", ROWS, {"Mine": "A", "New": None}, reference, ["First note.", "Second."]
+    )
+    assert text.startswith("# A title\n")
     lines = [cells(line) for line in text.splitlines() if line.startswith("|")]
     assert lines[0] == ["", "Mine", "New"]
     assert lines[2] == ["**SHREC1**", "91.00 ± 1.41 / 0.5500 ± 0.0707", "1.00 / 0.1000"]
@@ -59,8 +62,8 @@ def test_scores_become_percent_for_every_split() -> None:
     assert cell == Cell((90.0, 100.0), (0.5, 0.6))
 
 
-def test_the_transcription_holds_what_the_paper_prints() -> None:
-    reference = read_reference(REFERENCE)
+def test_the_transcription_of_table_1_holds_what_the_paper_prints() -> None:
+    reference = read_reference(REFERENCES / "table1.csv")
     assert reference.methods == ("SG", "Zer", "LFD", "SN", "Conf", "Sph", "Ours")
     rows = ("McGill1", "McGill2", "SHREC1", "SHREC2")
     absent = {("McGill1", "SG"), ("McGill2", "SG")}  # "NA" in the paper
@@ -71,6 +74,27 @@ def test_the_transcription_holds_what_the_paper_prints() -> None:
     for accuracy, average_precision in reference.figures.values():
         assert re.fullmatch(r"\d\d\.\d", accuracy)
         assert re.fullmatch(r"0\.\d\d", average_precision)
+
+
+def test_the_transcription_of_table_2_holds_what_the_paper_prints() -> None:
+    reference = read_reference(REFERENCES / "table2.csv")
+    assert reference.methods == ("VN", "DP", "LFD", "SN", "SH", "Conf", "Sph", "Ours")
+    rows = ("ModelNet10", "ModelNet40")
+    assert set(reference.figures) == {(r, m) for r in rows for m in reference.methods}
+    # The paper prints these mAP in percent, and none for VN.
+    assert reference.figures["ModelNet10", "Ours"] == ("88.4", "0.749")
+    assert reference.figures["ModelNet10", "VN"] == ("92.0", "")
+    assert reference.figures["ModelNet40", "SH"] == ("68.2", "0.344")
+    for accuracy, average_precision in reference.figures.values():
+        assert re.fullmatch(r"\d\d\.\d", accuracy)
+        assert re.fullmatch(r"(0\.\d{3})?", average_precision)
+
+
+def test_a_figure_that_the_paper_leaves_out_is_shown_as_left_out() -> None:
+    reference = Reference(("A",), {("SHREC1", "A"): ("92.0", "")})
+    text = as_markdown("T", ROWS[:1], {"Mine": "A"}, reference, [])
+    assert "| *in the paper* | *92.0 / –* |" in text
+    assert "| SHREC1 | 92.0 / – |" in text
 
 
 def test_the_csv_is_one_that_readers_of_csv_read() -> None:

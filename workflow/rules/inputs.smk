@@ -1,0 +1,142 @@
+def shards_of(pattern):
+    """Return an input function: the files of all shards of a database, in order."""
+
+    def shards(wildcards):
+        count = config["datasets"][wildcards.database]["shards"]
+        return expand(pattern, shard=range(count), allow_missing=True)
+
+    return shards
+
+
+def column_shards(wildcards):
+    """Return the last files of a column that are made shape by shape."""
+    column = TABLES[wildcards.table]["columns"][wildcards.column]
+    if "baseline" in column:
+        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{shard}}.npz"
+    else:
+        images = f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
+        pattern = f"results/images/{{database}}/{images}/{{shard}}.npz"
+    return shards_of(pattern)(wildcards)
+
+
+def recipe(wildcards):
+    """Return how the images of a column are made, for other shapes to be shown to its network."""
+    column = TABLES[wildcards.table]["columns"][wildcards.column]
+
+    def plugin(spec):
+        return {key: spec[key] for key in ("plugin", "target", "parameters")}
+
+    return {
+        "parametrizer": plugin(PARAMETRIZERS[column["parametrizer"]]),
+        "descriptors": [plugin(DESCRIPTORS[one]) for one in column["descriptors"]],
+        "eigenpairs": config["eigenpairs"],
+        **config["images"],
+    }
+
+
+def channels(wildcards):
+    """Return the shards of the descriptors that an image shows, in the order of its name."""
+    return expand(
+        "results/descriptors/{database}/{descriptor}/{shard}.npz",
+        descriptor=wildcards.descriptors.split("+"),
+        allow_missing=True,
+    )
+
+
+def predictions(wildcards):
+    """Return the predictions of a column under one protocol, one for each seed."""
+    table = TABLES[wildcards.table]
+    column = table["columns"][wildcards.column]
+    if "baseline" in column:
+        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{protocol}}-{{seed}}.npz"
+    else:
+        pattern = "results/learning/{table}/{database}/{column}/{protocol}-{seed}.npz"
+    return expand(pattern, seed=table["seeds"], allow_missing=True)
+
+
+def splits(wildcards):
+    """Return the splits of a database under one protocol, one for each seed of a table."""
+    return expand(
+        "results/datasets/{database}/splits/{protocol}-{seed}.csv",
+        seed=TABLES[wildcards.table]["seeds"],
+        allow_missing=True,
+    )
+
+
+def table_rows(wildcards):
+    """Return the rows of a table: database and protocol."""
+    databases = TABLES[wildcards.table]["databases"]
+    return [(database, protocol) for database in databases for protocol in PROTOCOLS[database]]
+
+
+def table_cells(pattern):
+    """Return an input function: a file for each database of a table and each of its columns."""
+
+    def cells(wildcards):
+        table = TABLES[wildcards.table]
+        return expand(
+            pattern, database=table["databases"], column=table["columns"], allow_missing=True
+        )
+
+    return cells
+
+
+def evaluations(wildcards):
+    """Return the scores of a table, row by row."""
+    return [
+        f"results/evaluation/{wildcards.table}/{database}/{column}/{protocol}.json"
+        for database, protocol in table_rows(wildcards)
+        for column in TABLES[wildcards.table]["columns"]
+    ]
+
+
+def table_surveys(wildcards):
+    """Return what is said of the surfaces of the databases of a table."""
+    databases = TABLES[wildcards.table]["databases"]
+    return expand("results/surfaces/{database}.json", database=databases)
+
+
+def table_plugins(wildcards):
+    """Return the plugins that a table is made of."""
+    table = TABLES[wildcards.table]
+    columns = table["columns"].values()
+    learned = [column for column in columns if "network" in column]
+    descriptors = [name for column in learned for name in column["descriptors"]]
+    return {
+        "dataset": picked(DATASETS, table["databases"]),
+        "parametrizer": picked(PARAMETRIZERS, [one["parametrizer"] for one in learned]),
+        "descriptor": picked(DESCRIPTORS, descriptors),
+        "baseline": picked(BASELINES, [one["baseline"] for one in columns if "baseline" in one]),
+    }
+
+
+def column_network(wildcards):
+    """Return the network of a column with all of its parameters."""
+    return NETWORKS[TABLES[wildcards.table]["columns"][wildcards.column]["network"]]
+
+
+def table_networks(wildcards):
+    """Return the networks of a table with all of their parameters: slug of the column -> network."""
+    columns = TABLES[wildcards.table]["columns"]
+    return {
+        name: NETWORKS[column["network"]] for name, column in columns.items() if "network" in column
+    }
+
+
+def table_config(wildcards):
+    """Return the configuration without the sections that a table does not depend on."""
+    other = {*TABLES, "distortion", "reconstruction", "figures"} - {wildcards.table}
+    return {key: part for key, part in config.items() if key not in other}
+
+
+def figure_params(figure):
+    """Return what the script of one of Figures 2 to 4 depends on beside its input."""
+    chosen = config["figures"][figure]
+    return {
+        "config": chosen,
+        "plugins": {
+            "dataset": picked(DATASETS, [SUBJECT["database"]]),
+            "parametrizer": picked(PARAMETRIZERS, chosen["parametrizers"]),
+        },
+        "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),
+    }
