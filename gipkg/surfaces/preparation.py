@@ -13,13 +13,13 @@ from pydantic import ConfigDict, Field, validate_call
 
 from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
+from gipkg.formats.array_faults import array_fault
+from gipkg.formats.reading import load_mesh
 from gipkg.surfaces import cleaning, genus, holes, parts, slivers, splitting
-from gipkg.surfaces.reading import load_mesh
 from gipkg.surfaces.report import Report, Step, count
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.validation import (
-    array_fault,
     check_genus_zero,
     face_areas,
     genus_zero_faults,

@@ -9,6 +9,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from gipkg.errors import UnsupportedMesh
+from gipkg.formats.array_faults import array_fault
 from gipkg.surfaces import halfedges
 
 DEGENERATE = 1e-12
@@ -58,18 +59,6 @@ def genus_zero_faults(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -
     yield from edge_faults
     if not edge_faults:
         yield from _global_faults(faces, edges.pairs())
-
-
-def array_fault(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> str | None:
-    """Name what keeps the arrays from describing any triangle mesh, or return None."""
-    if not len(faces):
-        return "it has no faces"
-    if not np.isfinite(vertices).all():
-        return f"{np.count_nonzero(~np.isfinite(vertices).all(axis=1))} vertices are not finite"
-    outside = ((faces < 0) | (faces >= len(vertices))).any(axis=1)
-    if outside.any():
-        return f"{np.count_nonzero(outside)} faces name a vertex that does not exist"
-    return None
 
 
 def repeats_vertex(faces: NDArray[np.int64]) -> NDArray[np.bool_]:

@@ -11,7 +11,8 @@ import trimesh
 from scipy.io import loadmat
 
 from gipkg.errors import UnsupportedMesh
-from gipkg.surfaces import load_mesh, prepare
+from gipkg.formats.reading import load_mesh
+from gipkg.surfaces import prepare
 from tests.surfaces.solids import assert_genus_zero, bare
 from tests.surfaces.test_preparation import assert_untouched
 

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gipkg.errors import MeshFormatError
-from gipkg.surfaces import load_mesh
+from gipkg.formats.reading import load_mesh
 from tests.surfaces.solids import sphere
 
 QUADS = "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n" + "".join(

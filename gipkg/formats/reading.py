@@ -8,8 +8,8 @@ import numpy as np
 import trimesh
 
 from gipkg.errors import MeshFormatError
-from gipkg.surfaces.off import read_off
-from gipkg.surfaces.validation import array_fault
+from gipkg.formats.array_faults import array_fault
+from gipkg.formats.off import parse_off
 
 
 def load_mesh(path: Path | str) -> trimesh.Trimesh:
@@ -37,9 +37,29 @@ def load_mesh(path: Path | str) -> trimesh.Trimesh:
     path = Path(path)
     _check_file(path)
     if path.suffix.lower() == ".off":
-        vertices, faces = read_off(path)
-    else:
-        vertices, faces = _read_by_trimesh(path)
+        return load_off(path.read_bytes(), path)
+    return _mesh(*_read_by_trimesh(path), path)
+
+
+def load_off(data: bytes, path: Path) -> trimesh.Trimesh:
+    """Read the content of an OFF file, as :func:`load_mesh` does a file.
+
+    Parameters
+    ----------
+    data : bytes
+        All of it.
+    path : Path
+        What to call it, such as its place in an archive.
+
+    Raises
+    ------
+    MeshFormatError
+        It is no OFF file with a triangle mesh of finite vertices.
+    """
+    return _mesh(*parse_off(data, path), path)
+
+
+def _mesh(vertices: np.ndarray, faces: np.ndarray, path: Path) -> trimesh.Trimesh:
     if fault := array_fault(vertices, faces):
         raise MeshFormatError(path, f"not a triangle mesh: {fault}")
     return trimesh.Trimesh(vertices, faces, process=False, metadata={"file_name": path.name})

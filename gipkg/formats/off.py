@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.errors import MeshFormatError
-from gipkg.surfaces.polygons import triangulate_polygons
+from gipkg.formats.polygons import triangulate_polygons
 
 Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
@@ -22,8 +22,15 @@ _HEADER = re.compile(rb"(?:\s|#[^\r\n]*)*(?:ST)?C?N?(4?)(n?)OFF[ \t]*(BINARY)?[ 
 _COMMENT = re.compile(rb"#[^\r\n]*")
 
 
-def read_off(path: Path) -> Arrays:
-    """Read the vertices and the triangulated faces of an OFF file.
+def parse_off(data: bytes, path: Path) -> Arrays:
+    """Read the vertices and the triangulated faces of an OFF file's content.
+
+    Parameters
+    ----------
+    data : bytes
+        All of it.
+    path : Path
+        What to call it in an error.
 
     Returns
     -------
@@ -35,7 +42,6 @@ def read_off(path: Path) -> Arrays:
     MeshFormatError
         The file is not OFF in three dimensions, or ends early, or counts wrongly.
     """
-    data = path.read_bytes()
     header = _HEADER.match(data)
     if header is None:
         raise MeshFormatError(path, "the header OFF is missing")
