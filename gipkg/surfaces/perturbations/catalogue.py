@@ -1,0 +1,63 @@
+"""The perturbations by name, and what is made of a perturbed surface."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+import numpy as np
+import trimesh
+
+from gipkg.surfaces.perturbations.missing import remove_holes, remove_region
+from gipkg.surfaces.perturbations.noise import add_noise
+from gipkg.surfaces.perturbations.remeshing import remesh
+from gipkg.surfaces.perturbations.shortcuts import add_shortcuts
+from gipkg.surfaces.preparation import prepare
+from gipkg.surfaces.surface import Surface
+
+Perturbation = Callable[[trimesh.Trimesh, float, np.random.Generator], trimesh.Trimesh]
+"""A closed genus-0 surface and a strength to a surface with faults; the first never changes."""
+
+PERTURBATIONS: Mapping[str, Perturbation] = MappingProxyType(
+    {
+        "noise": add_noise,
+        "remesh": remesh,
+        "holes": remove_holes,
+        "shortcut": add_shortcuts,
+        "missing": remove_region,
+    }
+)
+
+
+def perturb(
+    mesh: trimesh.Trimesh, name: str, strength: float, *, seed: int, shape_id: str
+) -> Surface:
+    """Perturb a surface and prepare it again, as if it had come from a scanner like that.
+
+    A stronger perturbation of the same shape strikes at the same places.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh
+        Closed genus-0 surface.
+    name : str
+        Of one of `PERTURBATIONS`.
+    strength : float
+        Positive; what it measures, each perturbation says.
+    seed : int
+    shape_id : str
+        The random choices are those of this shape, whatever other shapes there are.
+
+    Returns
+    -------
+    Surface
+        Closed, of genus 0 and of one component: the largest that is left.
+
+    Raises
+    ------
+    UnsupportedMesh
+        The perturbed surface cannot be repaired.
+    """
+    rng = np.random.default_rng([seed, zlib.crc32(shape_id.encode())])
+    return prepare(PERTURBATIONS[name](mesh, strength, rng), smallest_part=0.0)
