@@ -31,6 +31,10 @@ class DamagedFileError(GipkgError):
     """A file that gipkg wrote is no longer whole; delete it and run the command again."""
 
 
+class ImageFormatError(GipkgError):
+    """A file could not be read as a geometry image; the message names it and what it is."""
+
+
 class UnsupportedMesh(GipkgError):
     """A mesh is well formed but outside the domain of the method asked for."""
 

@@ -1,0 +1,71 @@
+"""``gipkg view``: pictures of meshes, spherical maps and geometry images."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from gipkg.cli._batch import Facts, Job, convert, plan
+from gipkg.cli._extras import require
+from gipkg.cli._options import files_argument, json_option, output_options
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+SUFFIXES = (".png",)
+IMAGES = (".npy", ".tiff", ".tif", ".png")
+
+
+@click.command()
+@files_argument("FILE")
+@output_options(SUFFIXES)
+@click.option(
+    "--size", type=click.IntRange(32, 4096), default=512, show_default=True, help="Pixels a panel."
+)
+@json_option
+def command(
+    files: tuple[Path, ...],
+    output: Path,
+    suffix: str | None,
+    force: bool,
+    size: int,
+    as_json: bool,
+) -> None:
+    """Draw meshes, spherical maps and geometry images, without a display.
+
+    Of a mesh: the mesh. Of a map: mesh, sphere and geometry image in the same colours. Of an
+    image of positions: the image and its mesh; of another image: its channels.
+    """
+    require("figures", "pyvista", "matplotlib")
+    jobs = plan(files, output, suffix, SUFFIXES)
+
+    def work(job: Job) -> Facts:
+        from gipkg.files import atomic
+        from gipkg.formats.png import encode_png
+
+        picture = _draw(job.source, size)
+        with atomic(job.target) as stream:
+            stream.write(encode_png(picture, {}))
+        return {"width": picture.shape[1], "height": picture.shape[0]}
+
+    convert("view", jobs, work, say=_say, force=force, as_json=as_json)
+
+
+def _draw(path: Path, size: int) -> NDArray[np.uint8]:
+    from gipkg.formats.images import read_image
+    from gipkg.formats.maps import is_map, read_map
+    from gipkg.reporting import pictures
+    from gipkg.formats.reading import load_mesh
+
+    if path.suffix.lower() in IMAGES:
+        return pictures.of_image(read_image(path), size)
+    if is_map(path):
+        return pictures.of_map(read_map(path), size)
+    return pictures.of_mesh(load_mesh(path), size)
+
+
+def _say(facts: Facts) -> str:
+    return f"{facts['width']} x {facts['height']} pixels"

@@ -1,0 +1,64 @@
+"""NumPy's own files from anywhere: no pickles, and no more memory than the file is long."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def read_array(path: Path) -> NDArray[Any]:
+    """Read an ``.npy`` file.
+
+    Raises
+    ------
+    ValueError
+        It is none, holds Python objects, or says that it holds more than it does.
+    """
+    with path.open("rb") as stream:
+        return _read(stream, path.stat().st_size)
+
+
+def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """Read all arrays of an uncompressed ``.npz`` file, as :func:`gipkg.files.write_arrays` writes.
+
+    Raises
+    ------
+    ValueError
+        It is none, is compressed, holds Python objects, or says that it holds more than it does.
+    zipfile.BadZipFile
+        It is no archive, or a checksum in it does not fit.
+    """
+    arrays = {}
+    with zipfile.ZipFile(path) as archive:
+        for member in archive.infolist():
+            if member.compress_type != zipfile.ZIP_STORED:
+                raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")
+            with archive.open(member) as stream:
+                arrays[member.filename.removesuffix(".npy")] = _read(stream, path.stat().st_size)
+    return arrays
+
+
+def _read(stream: IO[bytes], available: int) -> NDArray[Any]:
+    version = np.lib.format.read_magic(stream)
+    readers = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }
+    if version not in readers:
+        raise ValueError(f"version {version} of NumPy's format holds no plain numbers")
+    shape, by_columns, dtype = readers[version](stream)
+    if dtype.hasobject:
+        raise ValueError("it holds Python objects, which are not read")
+    size = math.prod(shape) * dtype.itemsize
+    if min(shape, default=0) < 0 or size > available:
+        raise ValueError(f"the header asks for {size} bytes, the file has {available}")
+    content = stream.read(size)
+    if len(content) != size:
+        raise ValueError("it ends early")
+    array = np.frombuffer(content, dtype)
+    return array.reshape(shape, order="F" if by_columns else "C").copy()
