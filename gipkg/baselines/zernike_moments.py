@@ -21,6 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import binom, roots_jacobi, roots_legendre
 
+from gipkg.baselines.solid_harmonics import solid_harmonics
+
 CHUNK = 8192
 """Quadrature points taken together, so that their harmonics stay in the cache."""
 
@@ -51,7 +53,7 @@ def zernike_moments(
     for points, weights in _quadrature(corners, order):
         squares = np.einsum("pi,pi->p", points, points)
         powers = weights * squares ** np.arange(order // 2 + 1)[:, None]
-        for terms, harmonics in zip(sums, _solid_harmonics(points, order), strict=True):
+        for terms, harmonics in zip(sums, solid_harmonics(points, order), strict=True):
             terms += powers[: len(terms)] @ harmonics.conj().T
     moments = {}
     for degree, terms in enumerate(sums):
@@ -68,29 +70,6 @@ def _radial(degree: int, k: int) -> NDArray[np.float64]:
     v = np.arange(k + 1)
     norm = math.sqrt((2 * degree + 4 * k + 3) / 3)
     return norm * (-1.0) ** (k - v) * binom(k, v) * binom(k + degree + v + 0.5, k)
-
-
-def _solid_harmonics(points: NDArray[np.float64], order: int) -> Iterator[NDArray[np.complex128]]:
-    """Yield, for l = 0, …, order, the (l + 1, P) solid harmonics of m = 0, …, l at (P, 3) points.
-
-    Scaled to a mean square of 1 over the unit sphere. Recurrences in Cartesian coordinates,
-    regular at the poles and at the origin.
-    """
-    x, y, z = points.T
-    squares = x * x + y * y + z * z
-    before = np.zeros((0, len(points)), dtype=complex)
-    current = np.ones((1, len(points)), dtype=complex)
-    yield current
-    for degree in range(1, order + 1):
-        d, m = degree, np.arange(degree)[:, None]
-        new = np.empty((d + 1, len(points)), dtype=complex)
-        new[:d] = np.sqrt((4 * d * d - 1) / (d * d - m * m)) * z * current
-        m = m[: d - 1]
-        ratio = (2 * d + 1) * ((d - 1) ** 2 - m * m) / ((2 * d - 3) * (d * d - m * m))
-        new[: d - 1] -= np.sqrt(ratio) * squares * before
-        new[d] = -math.sqrt((2 * d + 1) / (2 * d)) * (x + 1j * y) * current[d - 1]
-        yield new
-        before, current = current, new
 
 
 def _quadrature(
