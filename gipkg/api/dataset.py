@@ -81,6 +81,8 @@ class DatasetTags:
     """Address of the files, or how they are generated."""
     files: Mapping[str, str] = field(default_factory=dict)
     """Path under the data root -> SHA-256 of every file that is needed."""
+    excluded: Mapping[str, str] = field(default_factory=dict)
+    """Identifier -> why it is left out, of what is in the files and is not listed as a shape."""
 
 
 class Dataset(Plugin):

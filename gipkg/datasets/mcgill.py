@@ -7,7 +7,7 @@ import struct
 import zlib
 from abc import abstractmethod
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
@@ -55,8 +55,16 @@ MIXED = (
 PER_CLASS = 20
 """Shapes that are chosen of each class, as in the paper."""
 
-DUPLICATES = frozenset({"birds-b18", "birds-b20", "dolphins-b4", "four-b7", "tables-b14"})
-"""Left out: voxel by voxel the same as birds-b12, birds-b15, dolphins-b3, four-b3, tables-14."""
+DUPLICATES: Mapping[str, str] = MappingProxyType(
+    {
+        "birds-b18": "birds-b12",
+        "birds-b20": "birds-b15",
+        "dolphins-b4": "dolphins-b3",
+        "four-b7": "four-b3",
+        "tables-b14": "tables-14",
+    }
+)
+"""Left out -> kept: the same voxel by voxel."""
 
 SUFFIX = ".im.gz"
 HEADER = 1024
@@ -148,7 +156,7 @@ class McGillChoice(McGillDataset):
         return chosen
 
 
-def _tags(shapes: int, classes: int) -> DatasetTags:
+def _tags(shapes: int, classes: int, duplicates: Collection[str]) -> DatasetTags:
     return DatasetTags(
         generated=False,
         shapes=shapes,
@@ -156,6 +164,7 @@ def _tags(shapes: int, classes: int) -> DatasetTags:
         licence="none stated",
         source=HOME,
         files={ARCHIVE: SHA256},
+        excluded={one: f"the same as {DUPLICATES[one]}" for one in duplicates},
     )
 
 
@@ -163,7 +172,9 @@ class McGill(McGillChoice):
     """Ten classes, five of them articulated, of 20 shapes each: a mix as in the paper."""
 
     summary: ClassVar[str] = "McGill benchmark: 10 classes, articulated and not, x 20 volumes"
-    tags: ClassVar[DatasetTags] = _tags(PER_CLASS * len(MIXED), len(MIXED))
+    tags: ClassVar[DatasetTags] = _tags(
+        PER_CLASS * len(MIXED), len(MIXED), ("four-b7", "tables-b14")
+    )
     protocols: ClassVar[Mapping[str, Protocol]] = {"McGill1": Protocol(10), "McGill2": Protocol(16)}
     classes: ClassVar[tuple[str, ...]] = MIXED
 
@@ -172,7 +183,7 @@ class McGillArticulated(McGillChoice):
     """The ten articulated classes, of 20 shapes each."""
 
     summary: ClassVar[str] = "McGill benchmark: the 10 articulated classes x 20 volumes"
-    tags: ClassVar[DatasetTags] = _tags(PER_CLASS * len(ARTICULATED), len(ARTICULATED))
+    tags: ClassVar[DatasetTags] = _tags(PER_CLASS * len(ARTICULATED), len(ARTICULATED), ())
     protocols: ClassVar[Mapping[str, Protocol]] = {
         "McGillArticulated1": Protocol(10),
         "McGillArticulated2": Protocol(16),
@@ -184,7 +195,7 @@ class McGill19(McGillDataset):
     """All 19 classes and all 452 distinct shapes, 11 to 31 a class."""
 
     summary: ClassVar[str] = "McGill benchmark whole: 452 volumes in 19 classes"
-    tags: ClassVar[DatasetTags] = _tags(452, 19)
+    tags: ClassVar[DatasetTags] = _tags(452, 19, DUPLICATES)
     protocols: ClassVar[Mapping[str, Protocol]] = {"McGill19": Protocol(0.5)}
 
     def _choose(self, label: str, ids: list[str]) -> list[str]:

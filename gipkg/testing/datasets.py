@@ -39,6 +39,7 @@ def tags_are_complete(plugin: Dataset) -> None:
         require(tags.shapes >= tags.classes > 0, f"{tags.shapes} shapes in {tags.classes} classes")
     require(tags.licence.strip(), "the licence is empty; say 'none stated' if none is")
     require(tags.source.strip(), "the source is empty")
+    require(plugin.upright in (None, "x", "y", "z"), f"{plugin.upright!r} is no axis")
     require(
         _is_published(plugin) == bool(tags.files),
         "published files are named with their checksums, no others",
@@ -105,6 +106,8 @@ def counts_what_its_tags_say(plugin: Dataset, root: Path) -> None:
     found = len(shapes), len({shape.label for shape in shapes})
     stated = plugin.tags.shapes, plugin.tags.classes
     require(stated in (found, (None, None)), f"found {found}, not the tags' {stated}")
+    listed = {shape.id for shape in shapes} & set(plugin.tags.excluded)
+    require(not listed, f"{sorted(listed)} are listed, though the tags exclude them")
 
 
 @SUITE.check(needs_data=True)

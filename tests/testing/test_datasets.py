@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar
 
@@ -54,6 +55,12 @@ class Miscounted(Balls):
     )
 
 
+class Excluding(Balls):
+    """Lists a shape that it says it leaves out."""
+
+    tags: ClassVar[DatasetTags] = replace(Balls.tags, excluded={"ball1": "flat"})
+
+
 class Unlicensed(Balls):
     tags: ClassVar[DatasetTags] = DatasetTags(
         generated=True, shapes=8, classes=2, licence="", source="generated"
@@ -104,6 +111,7 @@ class Inventing(Balls):
 WRONG = {
     Unsorted: {"lists-shapes-in-one-order"},
     Miscounted: {"counts-what-its-tags-say"},
+    Excluding: {"counts-what-its-tags-say"},
     Unlicensed: {"tags-are-complete"},
     Unfiled: {"tags-are-complete", "is-absent-from-an-empty-folder"},
     Unsplittable: {"names-its-protocols", "splits-by-its-protocols"},
