@@ -24,7 +24,4 @@ rule all:
         expand("results/{table}.csv", table=[name for name in TABLES if TABLES[name]["databases"]]),
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",
-        "results/figure2.png",
-        "results/figure3.png",
-        "results/figure4.png",
-        "results/figure7.png",
+        expand("results/figure{number}.png", number=range(1, 8)),

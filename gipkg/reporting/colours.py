@@ -24,6 +24,9 @@ CATEGORIES = (
 INK = (0.2, 0.2, 0.2)
 """Lines and text."""
 
+CUT = (0.8, 0.05, 0.05)
+"""Lines where a sphere is cut."""
+
 
 DIVERGING = "RdBu_r"
 """Matplotlib's name of the scale from -1 (blue) over 0 (white) to 1 (red)."""

@@ -1,4 +1,4 @@
-"""Figures 2 to 4 of a run: pictures, the numbers they show, and where they come from."""
+"""Figures 1 to 6 of a run: pictures, the numbers they show, and where they come from."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from PIL import Image
 
 from tests.workflow.workdir import Workdir
 
-FIGURES = ("figure2", "figure3", "figure4")
+FIGURES = ("figure2", "figure3", "figure4", "figure5", "figure6")
 
 
 def rows(path: Path) -> list[dict[str, str]]:
@@ -28,13 +28,26 @@ def test_a_figure_is_a_picture_with_numbers_and_provenance(smoke: Workdir, figur
     assert 0.1 < (picture < 240).any(axis=2).mean() < 0.9
     assert len(rows(results / f"{figure}.csv")) > 5
     provenance = json.loads((results / f"{figure}.json").read_text())
-    assert provenance["shape"] == "hands-000"
+    assert provenance["shapes"] == ["hands-000"]
     assert provenance["size"] == 64
     assert list(provenance["plugins"]["dataset"]) == ["tiny"]
     names = provenance["config"]["parametrizers"]
     assert set(provenance["plugins"]["parametrizer"]) == set(names)
     assert provenance["libraries"]["pyvista"]
     assert provenance["gipkg"]["version"]
+
+
+def test_figure_1_is_the_pixels_of_two_shapes(smoke: Workdir) -> None:
+    results = smoke.path / "results"
+    shapes = rows(results / "figure1_shapes.csv")
+    assert [row["shape"] for row in shapes] == ["teddies-000", "spectacles-000"]
+    assert shapes[0]["added_vertices"] == "0"
+    assert int(shapes[1]["added_vertices"]) > 0
+    assert len(rows(results / "figure1.csv")) == 64 * 64
+    picture = np.asarray(Image.open(results / "figure1.png").convert("RGB"))
+    assert 0.1 < (picture < 240).any(axis=2).mean() < 0.9
+    provenance = json.loads((results / "figure1.json").read_text())
+    assert provenance["shapes"] == ["teddies-000", "spectacles-000"]
 
 
 def test_figure_2_keeps_the_tips_by_area_alone(smoke: Workdir) -> None:

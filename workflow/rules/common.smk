@@ -149,14 +149,25 @@ def chosen_tables():
     return tables
 
 
-def chosen_subject():
-    """Return the database and shape of Figures 2 to 4: the first whose database is at hand."""
-    for number, subject in enumerate(config["figures"]["shapes"]):
-        key = f"figures.shapes.{number}.database"
-        require_defined(key, subject["database"], "datasets")
+def chosen_subject(key, subjects):
+    """Return the database and shape that a figure shows: the first whose database is at hand."""
+    for number, subject in enumerate(subjects):
+        require_defined(f"{key}.{number}.database", subject["database"], "datasets")
         if dataset_plugin(subject["database"]).available(Path(config["data_root"])):
             return subject
-    raise WorkflowError("configuration, figures.shapes: none of the databases is at hand")
+    raise WorkflowError(f"configuration, {key}: none of the databases is at hand")
+
+
+def chosen_subjects():
+    """Return the shapes of the figures that show one or two: figure -> database and shape."""
+    chosen = config["figures"]
+    subject = chosen_subject("figures.shapes", chosen["shapes"])
+    first = [
+        chosen_subject(f"figures.figure1.{part}", chosen["figure1"][part])
+        for part in ("whole", "holed")
+    ]
+    others = ("figure2", "figure3", "figure4", "figure5", "figure6")
+    return {"figure1": first, **{figure: [subject] for figure in others}}
 
 
 def dataset_plugin(name):
@@ -194,29 +205,25 @@ METHODS = chosen_methods()
 MAPPED = chosen_databases("distortion", is_mapped_only)
 for name in config["reconstruction"]["parametrizers"]:
     require_defined("reconstruction.parametrizers", name, "parametrizers")
-SUBJECT = chosen_subject()
-for figure in ("figure2", "figure3", "figure4"):
+SUBJECTS = chosen_subjects()
+for figure in SUBJECTS:
     for name in config["figures"][figure]["parametrizers"]:
         require_defined(f"figures.{figure}.parametrizers", name, "parametrizers")
 
-DATASETS = instances("dataset", (*CLASSIFIED, *MAPPED, SUBJECT["database"]))
+PICTURED = [subject["database"] for subjects in SUBJECTS.values() for subject in subjects]
+DATASETS = instances("dataset", (*CLASSIFIED, *MAPPED, *PICTURED))
 PARAMETRIZERS = instances(
     "parametrizer",
     (
         *(column["parametrizer"] for column in LEARNED),
         *METHODS,
         *config["reconstruction"]["parametrizers"],
-        *config["figures"]["figure2"]["parametrizers"],
-        *config["figures"]["figure3"]["parametrizers"],
-        *config["figures"]["figure4"]["parametrizers"],
+        *(name for figure in SUBJECTS for name in config["figures"][figure]["parametrizers"]),
     ),
 )
 DESCRIPTORS = instances("descriptor", (one for column in LEARNED for one in column["descriptors"]))
 BASELINES = instances("baseline", (one["baseline"] for one in COLUMNS if "baseline" in one))
 NETWORKS = {column["network"]: network(column["network"]) for column in LEARNED}
-
-SUBJECT_SHARD = shard_of(SUBJECT["shape"], config["datasets"][SUBJECT["database"]]["shards"])
-SUBJECT_SURFACES = f"results/surfaces/{SUBJECT['database']}/{SUBJECT_SHARD}.npz"
 
 
 wildcard_constraints:

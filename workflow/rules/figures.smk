@@ -1,6 +1,24 @@
+rule figure1:
+    input:
+        figure_surfaces("figure1"),
+    output:
+        png="results/figure1.png",
+        csv="results/figure1.csv",
+        shapes="results/figure1_shapes.csv",
+        provenance="results/figure1.json",
+    log:
+        "results/logs/figure1.log",
+    conda:
+        "../../environment.yml"
+    params:
+        **figure_params("figure1"),
+    script:
+        "../scripts/figure1.py"
+
+
 rule figure2:
     input:
-        SUBJECT_SURFACES,
+        figure_surfaces("figure2"),
     output:
         png="results/figure2.png",
         csv="results/figure2.csv",
@@ -11,15 +29,13 @@ rule figure2:
         "../../environment.yml"
     params:
         **figure_params("figure2"),
-        shape=SUBJECT["shape"],
-        size=config["figures"]["size"],
     script:
         "../scripts/figure2.py"
 
 
 rule figure3:
     input:
-        SUBJECT_SURFACES,
+        figure_surfaces("figure3"),
     output:
         png="results/figure3.png",
         csv="results/figure3.csv",
@@ -30,15 +46,13 @@ rule figure3:
         "../../environment.yml"
     params:
         **figure_params("figure3"),
-        shape=SUBJECT["shape"],
-        size=config["figures"]["size"],
     script:
         "../scripts/figure3.py"
 
 
 rule figure4:
     input:
-        SUBJECT_SURFACES,
+        figure_surfaces("figure4"),
     output:
         png="results/figure4.png",
         csv="results/figure4.csv",
@@ -49,10 +63,42 @@ rule figure4:
         "../../environment.yml"
     params:
         **figure_params("figure4"),
-        shape=SUBJECT["shape"],
-        size=config["figures"]["size"],
     script:
         "../scripts/figure4.py"
+
+
+rule figure5:
+    input:
+        figure_surfaces("figure5"),
+    output:
+        png="results/figure5.png",
+        csv="results/figure5.csv",
+        provenance="results/figure5.json",
+    log:
+        "results/logs/figure5.log",
+    conda:
+        "../../environment.yml"
+    params:
+        **figure_params("figure5"),
+    script:
+        "../scripts/figure5.py"
+
+
+rule figure6:
+    input:
+        figure_surfaces("figure6"),
+    output:
+        png="results/figure6.png",
+        csv="results/figure6.csv",
+        provenance="results/figure6.json",
+    log:
+        "results/logs/figure6.log",
+    conda:
+        "../../environment.yml"
+    params:
+        **figure_params("figure6"),
+    script:
+        "../scripts/figure6.py"
 
 
 rule figure7:

@@ -129,13 +129,25 @@ def table_config(wildcards):
     return {key: part for key, part in config.items() if key not in other}
 
 
+def figure_surfaces(figure):
+    """Return the shards with the shapes that a figure shows, one for each of them."""
+    files = []
+    for subject in SUBJECTS[figure]:
+        count = config["datasets"][subject["database"]]["shards"]
+        shard = shard_of(subject["shape"], count)
+        files.append(f"results/surfaces/{subject['database']}/{shard}.npz")
+    return files
+
+
 def figure_params(figure):
-    """Return what the script of one of Figures 2 to 4 depends on beside its input."""
-    chosen = config["figures"][figure]
+    """Return what the script of a figure of one or two shapes depends on beside its input."""
+    chosen, subjects = config["figures"][figure], SUBJECTS[figure]
     return {
         "config": chosen,
+        "shapes": [subject["shape"] for subject in subjects],
+        "size": config["figures"]["size"],
         "plugins": {
-            "dataset": picked(DATASETS, [SUBJECT["database"]]),
+            "dataset": picked(DATASETS, [subject["database"] for subject in subjects]),
             "parametrizer": picked(PARAMETRIZERS, chosen["parametrizers"]),
         },
         "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),

@@ -1,4 +1,4 @@
-"""The one shape of Figures 2 to 4, and the files that each of them is."""
+"""The shapes of Figures 1 to 6, and the files that each of them is."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gipkg.files import write_csv, write_json
 from gipkg.reporting.figures.layout import write_png
 from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
-from gipkg.shards import Shard
+from gipkg.shards import Arrays, Shard
 
 import job
 from meshes import mesh_of
@@ -22,13 +22,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def read_subject(snakemake: Any) -> trimesh.Trimesh:
-    """Return the surface of the shape that the configuration names."""
-    surfaces, shape = Shard.open(Path(snakemake.input[0])), snakemake.params.shape
+def read_surface(snakemake: Any, number: int = 0) -> Arrays:
+    """Return the surface of one of the shapes that the configuration names for a figure."""
+    surfaces = Shard.open(Path(snakemake.input[number]))
+    shape = snakemake.params.shapes[number]
     if shape not in surfaces:
         reason = surfaces.failures.get(shape, "the database has no such shape")
-        raise DatasetNotFound(f"configuration, figures.shapes: {shape!r} has no surface: {reason}")
-    return mesh_of(surfaces[shape])
+        raise DatasetNotFound(f"configuration, figures: {shape!r} has no surface: {reason}")
+    return surfaces[shape]
+
+
+def read_subject(snakemake: Any) -> trimesh.Trimesh:
+    """Return the surface of the one shape of a figure."""
+    return mesh_of(read_surface(snakemake))
 
 
 def parametrizers(snakemake: Any) -> dict[str, Parametrizer]:
@@ -42,5 +48,5 @@ def write_figure(snakemake: Any, figure: Figure, records: Sequence[Any]) -> None
     """Write a figure, what it shows as numbers, and where it comes from."""
     write_csv(Path(snakemake.output.csv), *as_table(records))
     write_png(Path(snakemake.output.png), figure)
-    chosen = {name: snakemake.params[name] for name in ("shape", "size", "config", "plugins")}
+    chosen = {name: snakemake.params[name] for name in ("shapes", "size", "config", "plugins")}
     write_json(Path(snakemake.output.provenance), {**environment(), **chosen})
