@@ -46,7 +46,8 @@ class Descriptor(Plugin):
         mesh : trimesh.Trimesh
             V vertices; never changed.
         operators : Operators
-            Laplacian, mass and eigenpairs of `mesh`, computed at first use and shared.
+            Laplacian, mass and eigenpairs of `mesh`, computed at first use and shared, and its
+            topological mask.
 
         Returns
         -------

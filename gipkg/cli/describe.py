@@ -49,7 +49,7 @@ def command(
         from gipkg.formats.channels import write_channels
 
         surface, facts = read_surface(job.source)
-        channels = plugin.describe(surface.mesh, Operators(surface.mesh))
+        channels = plugin.describe(surface.mesh, Operators(surface.mesh, mask=surface.mask))
         write_channels(job.target, channels, plugin.channels())
         return {"descriptor": name, "channels": list(plugin.channels()), **facts}
 

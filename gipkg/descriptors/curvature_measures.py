@@ -9,6 +9,8 @@ import scipy.sparse as sp
 import trimesh
 from numpy.typing import NDArray
 
+from gipkg.descriptors.vertex_normals import vertex_normals
+
 
 @dataclass(frozen=True, slots=True)
 class Measures:
@@ -66,7 +68,7 @@ def curvature_measures(mesh: trimesh.Trimesh) -> Measures:
     faces = np.asarray(mesh.faces)
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    frames = _frames(_sum_at_vertices(normals, faces, len(vertices)))
+    frames = _frames(vertex_normals(vertices, faces))
 
     tails, heads, left, right = _edges(faces, len(vertices))
     edges = vertices[heads] - vertices[tails]
@@ -97,23 +99,12 @@ def _edges(faces: NDArray[np.int64], vertices: int) -> tuple[NDArray[np.int64], 
     return tails[forward][once], heads[forward][once], left[once], right[once]
 
 
-def _sum_at_vertices(
-    normals: NDArray[np.float64], faces: NDArray[np.int64], vertices: int
-) -> NDArray[np.float64]:
-    return np.stack(
-        [np.bincount(faces.ravel(), np.repeat(axis, 3), vertices) for axis in normals.T], axis=1
-    )
-
-
 def _frames(normals: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return any orthonormal pair (V, 2, 3) across each normal; the choice cancels out."""
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    upwards = np.tile([0.0, 0.0, 1.0], (len(normals), 1))
-    unit = np.divide(normals, length, out=upwards, where=length > 0)
-    across = np.eye(3)[np.abs(unit).argmin(axis=1)]
-    first = np.cross(unit, across)
+    across = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    first = np.cross(normals, across)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return np.stack([first, np.cross(unit, first)], axis=1)
+    return np.stack([first, np.cross(normals, first)], axis=1)
 
 
 def _phase(directions: NDArray[np.float64], frames: NDArray[np.float64]) -> NDArray[np.complex128]:

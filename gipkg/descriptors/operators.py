@@ -1,4 +1,4 @@
-"""What descriptors and spectral baselines share: Laplacian, mass and eigenpairs of a mesh."""
+"""What descriptors and baselines share of a mesh: Laplacian, mass, eigenpairs, mask."""
 
 from __future__ import annotations
 
@@ -42,6 +42,8 @@ class Spectrum:
 class Operators:
     """Laplacian, mass and eigenpairs of one mesh, each computed at first use and kept.
 
+    `mesh` and `mask` are as they were given.
+
     Parameters
     ----------
     mesh : trimesh.Trimesh
@@ -50,23 +52,34 @@ class Operators:
         How many to compute; at most V - 1 are.
     spectrum : Spectrum, optional
         Known already, for example from a file; then no eigenproblem is solved.
+    mask : (V,) bool array, optional
+        The topological mask of a prepared surface: False at the vertices of what was added to
+        close it. By default nothing was.
 
     Raises
     ------
     UnsupportedMesh
-        At construction if `spectrum` is of a mesh with another number of vertices, at first
-        use if coordinates are not finite or a vertex is in no face.
+        At construction if `spectrum` or `mask` is of a mesh with another number of vertices, at
+        first use if coordinates are not finite or a vertex is in no face.
     """
 
     def __init__(
-        self, mesh: trimesh.Trimesh, eigenpairs: int = 120, spectrum: Spectrum | None = None
+        self,
+        mesh: trimesh.Trimesh,
+        eigenpairs: int = 120,
+        spectrum: Spectrum | None = None,
+        mask: NDArray[np.bool_] | None = None,
     ) -> None:
-        if spectrum is not None and len(spectrum.mass) != len(mesh.vertices):
-            raise UnsupportedMesh(
-                f"the spectrum given is of a mesh with {len(spectrum.mass)} vertices, "
-                f"this one has {len(mesh.vertices)}: compute it anew from this mesh"
-            )
+        vertices = len(mesh.vertices)
+        mass = None if spectrum is None else spectrum.mass
+        for name, known in (("spectrum", mass), ("mask", mask)):
+            if known is not None and len(known) != vertices:
+                raise UnsupportedMesh(
+                    f"the {name} given is of a mesh with {len(known)} vertices, "
+                    f"this one has {vertices}: compute it anew from this mesh"
+                )
         self.mesh = mesh
+        self.mask = np.ones(vertices, dtype=bool) if mask is None else mask
         self._eigenpairs = eigenpairs
         self._known = spectrum
 

@@ -10,9 +10,11 @@ import trimesh
 from numpy.testing import assert_allclose
 from scipy.spatial import ConvexHull
 
+from gipkg.api import Volume
 from gipkg.descriptors.curvature import Curvature
 from gipkg.descriptors.curvature_measures import curvature_measures
 from gipkg.descriptors.operators import Operators
+from gipkg.surfaces import prepare
 
 AXES = np.array([1.0, 1.5, 2.5])
 
@@ -151,3 +153,18 @@ def test_the_turning_laplacian_is_hermitian_and_not_negative(small_pebble) -> No
 def test_channels_are_named_by_what_is_in_them() -> None:
     assert Curvature().channels() == ("log-principal-curvature-1", "log-principal-curvature-2")
     assert Curvature(quantity="gaussian", logarithm=False).channels() == ("gaussian-curvature",)
+
+
+def test_it_survives_the_remeshing_of_a_solid() -> None:
+    """An ellipsoid of 30 voxels, taken apart and built up again by the surface stage."""
+    axes = 14.5 * AXES / AXES.max()
+    grid = np.stack(np.mgrid[:30, :30, :30], axis=-1) - 14.5
+    surface = prepare(Volume(((grid / axes) ** 2).sum(axis=-1) < 1), vertices=800)
+    mesh = trimesh.Trimesh(surface.mesh.vertices - 14.5, surface.mesh.faces, process=False)
+    scale = AXES.max() / 14.5
+    found = curvature(mesh, time=2e-3) / scale
+    expected = of_ellipsoid(mesh.vertices * scale)
+    assert (np.median(np.abs(found - expected), axis=0) < [0.17, 0.07]).all()
+    assert (np.abs(np.mean(found - expected, axis=0)) < 0.06).all()
+    for i, least in ((0, 0.84), (1, 0.91)):
+        assert np.corrcoef(found[:, i], expected[:, i])[0, 1] > least

@@ -20,7 +20,7 @@ def mesh_of(surface: Arrays) -> trimesh.Trimesh:
 
 def operators_of(surface: Arrays, spectrum: Arrays) -> Operators:
     """Return the operators of a surface, its eigenpairs known."""
-    return Operators(mesh_of(surface), spectrum=Spectrum(**spectrum))
+    return Operators(mesh_of(surface), spectrum=Spectrum(**spectrum), mask=surface["mask"])
 
 
 class Maps:
