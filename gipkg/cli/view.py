@@ -10,13 +10,13 @@ import click
 from gipkg.cli._batch import Facts, Job, convert, plan
 from gipkg.cli._extras import require
 from gipkg.cli._options import files_argument, json_option, output_options
+from gipkg.formats import IMAGE_SUFFIXES
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
 SUFFIXES = (".png",)
-IMAGES = (".npy", ".tiff", ".tif", ".png")
 
 
 @click.command()
@@ -57,10 +57,10 @@ def command(
 def _draw(path: Path, size: int) -> NDArray[np.uint8]:
     from gipkg.formats.images import read_image
     from gipkg.formats.maps import is_map, read_map
-    from gipkg.reporting import pictures
     from gipkg.formats.reading import load_mesh
+    from gipkg.reporting import pictures
 
-    if path.suffix.lower() in IMAGES:
+    if path.suffix.lower() in IMAGE_SUFFIXES:
         return pictures.of_image(read_image(path), size)
     if is_map(path):
         return pictures.of_map(read_map(path), size)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from gipkg.files import atomic
 from gipkg.formats import IMAGE_SUFFIXES
 from gipkg.formats.arrays import read_array
 from gipkg.formats.png import decode_png, encode_png
+from gipkg.formats.tiff import decode_tiff, encode_tiff
 
 MAXIMUM_SIDE = 16384
 """Pixels along a side of an image that is read."""
@@ -44,10 +44,7 @@ def write_image(path: Path, image: NDArray[np.floating]) -> None:
         if suffix == ".npy":
             np.save(stream, image, allow_pickle=False)
         elif suffix == ".tiff":
-            from tifffile import imwrite
-
-            layout: dict[str, Any] = {"photometric": "minisblack", "planarconfig": "separate"}
-            imwrite(stream, image.astype(np.float32), metadata=None, software=False, **layout)
+            stream.write(encode_tiff(np.moveaxis(image, 0, -1)))
         else:
             stream.write(_to_png(image))
 
@@ -58,8 +55,7 @@ def read_image(path: Path) -> NDArray[np.float64]:
     Parameters
     ----------
     path : Path
-        As :func:`write_image` writes, or from elsewhere: an ``.npy`` of (C, n, n) numbers, a
-        ``.tiff`` of numbers in separate planes or with the channels last.
+        As :func:`write_image` writes it, or any ``.npy`` of (C, n, n) numbers.
 
     Returns
     -------
@@ -72,7 +68,7 @@ def read_image(path: Path) -> NDArray[np.float64]:
     """
     if not path.is_file():
         raise ImageFormatError(f"{path}: there is no such file")
-    readers = {".npy": read_array, ".tiff": _from_tiff, ".tif": _from_tiff, ".png": _from_png}
+    readers = {".npy": read_array, ".tiff": _from_tiff, ".png": _from_png}
     reader = readers.get(path.suffix.lower())
     if reader is None:
         raise ImageFormatError(f"{path}: the suffix is none of {', '.join(readers)}")
@@ -82,7 +78,7 @@ def read_image(path: Path) -> NDArray[np.float64]:
         raise ImageFormatError(f"{path}: not a geometry image ({error})") from error
     if image.dtype.kind not in "fiu" or image.ndim != 3 or image.shape[1] != image.shape[2]:
         raise ImageFormatError(
-            f"{path}: {image.shape} of {image.dtype} is no geometry image, but (C, n, n) numbers are"
+            f"{path}: a geometry image is (C, n, n) numbers, not {image.shape} of {image.dtype}"
         )
     if not np.isfinite(image).all():
         raise ImageFormatError(f"{path}: not all pixels are finite")
@@ -108,18 +104,5 @@ def _from_png(path: Path) -> NDArray[np.float64]:
     return np.moveaxis(low + levels / _LEVELS * (high - low), -1, 0)
 
 
-def _from_tiff(path: Path) -> NDArray[Any]:
-    from tifffile import TiffFile, TiffFileError
-
-    try:
-        with TiffFile(path) as file:
-            shape = file.series[0].shape
-            if max(shape) > MAXIMUM_SIDE or file.series[0].nbytes > path.stat().st_size:
-                raise ValueError(f"{shape} numbers are too many for it; write it uncompressed")
-            pixels: NDArray[Any] = file.series[0].asarray()
-    except (TiffFileError, IndexError, KeyError, TypeError) as error:
-        raise ValueError(f"not a readable TIFF: {error}") from error
-    if pixels.ndim == 2:
-        return pixels[None]
-    channels_last = pixels.ndim == 3 and pixels.shape[0] == pixels.shape[1] != pixels.shape[2]
-    return np.moveaxis(pixels, -1, 0) if channels_last else pixels
+def _from_tiff(path: Path) -> NDArray[np.float32]:
+    return np.moveaxis(decode_tiff(path.read_bytes()), -1, 0)
