@@ -27,7 +27,7 @@ _ROUND_OFF = 1e-12
 """Below this it is not lowered further; very thin faces may end a little above."""
 _NEAR = 1e-4
 """Error from which the areas are met by Newton's method alone."""
-_ITERATIONS, _RESTORATIONS = 40, 20
+_ITERATIONS, _RESTORATIONS = 10, 20
 _START_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-2, 1e-9, 1e5
 _SHORTEST_STEP = 1e-2
 _SUFFICIENT = 0.1

@@ -86,6 +86,7 @@ def least_distorted_map(
         descent = Descent(faces, len(order), callback and _in_order(callback, order))
         sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
         if rounds:
+            energy = _of_equal_faces(energy)
             sphere = unjam(descent, energy, sphere, rounds=rounds, tolerance=tolerance)
         if exact_areas:
             true = areas * (4 * np.pi / areas.sum())
@@ -119,6 +120,11 @@ def _energy(
     return MapEnergy(
         faces, targets, weights, _in_single(cotangents), shape_weight, np.zeros(len(faces))
     )
+
+
+def _of_equal_faces(energy: MapEnergy) -> MapEnergy:
+    """Weigh all faces alike, as std(r - 1) does: near its end a descent is not ruled by slivers."""
+    return replace(energy, weights=np.full_like(energy.weights, energy.weights.mean()))
 
 
 def _in_single(values: NDArray[np.float64]) -> NDArray[np.float64]:
