@@ -35,7 +35,8 @@ def test_the_tables_keep_their_columns_of_one_heading_apart(smoke: Workdir) -> N
     for table, descriptor in (("table1", "hks"), ("table2", "principal")):
         provenance = json.loads((smoke.path / f"results/{table}.json").read_text())
         assert list(provenance["plugins"]["descriptor"]) == [descriptor]
-        assert (smoke.path / f"results/learning/{table}/tiny/ours/Tiny1-0.npz").exists()
+        trained = smoke.path / "results/learning/tiny/authalic" / descriptor
+        assert (trained / "shallow/Tiny1-0.npz").exists()
 
 
 def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
@@ -143,8 +144,8 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
 
 def test_every_training_left_its_seconds_among_the_timings(smoke: Workdir) -> None:
     results = smoke.path / "results"
-    learned = [*results.glob("learning/*/tiny/*/Tiny1-*")]
-    trained = [*learned, *results.glob("baselines/tiny/*/Tiny1-*")]
+    learned = [*results.glob("learning/tiny/*/*/*/Tiny1-?.npz")]
+    trained = [*learned, *results.glob("baselines/tiny/*/Tiny1-?.npz")]
     assert len(trained) == 9
     for prediction in trained:
         timing = results / "benchmarks" / prediction.relative_to(results).with_suffix(".json")
@@ -202,6 +203,8 @@ def test_a_damaged_intermediate_file_is_named(smoke: Workdir, tmp_path: Path) ->
     content = (tmp_path / damaged).read_bytes()
     (tmp_path / damaged).unlink()
     (tmp_path / damaged).write_bytes(content[: len(content) // 2])
-    done = workdir.run("results/learning/table1/tiny/ours/Tiny1-0.npz", "--forcerun", "learn")
+    done = workdir.run(
+        "results/learning/tiny/authalic/hks/shallow/Tiny1-0.npz", "--forcerun", "learn"
+    )
     assert done.returncode != 0
     assert f"DamagedFileError: {damaged}" in done.stdout

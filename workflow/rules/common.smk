@@ -230,6 +230,8 @@ wildcard_constraints:
     database=alternatives(DATASETS),
     parametrizer=alternatives(PARAMETRIZERS),
     descriptor=alternatives(DESCRIPTORS),
+    descriptors="[a-z0-9+-]+",
+    network=alternatives(NETWORKS),
     baseline=alternatives(BASELINES),
     table=alternatives(TABLES),
     column="[a-z0-9-]+",

@@ -1,10 +1,13 @@
 rule complete:
     input:
-        column_shards,
+        shards_of("results/{stage}/{database}/{method}/{shard}.npz"),
     output:
-        "results/failures/{table}/{database}/{column}.json",
+        "results/failures/{stage}/{database}/{method}.json",
     log:
-        "results/logs/failures/{table}/{database}/{column}.log",
+        "results/logs/failures/{stage}/{database}/{method}.log",
+    wildcard_constraints:
+        stage="images|baselines",
+        method="[a-z0-9+/-]+",
     conda:
         "../../environment.yml"
     params:

@@ -9,8 +9,6 @@ rule images:
         "results/logs/images/{database}/{parametrizer}/{descriptors}/{shard}.log",
     benchmark:
         "results/benchmarks/images/{database}/{parametrizer}/{descriptors}/{shard}.tsv"
-    wildcard_constraints:
-        descriptors="[a-z0-9+-]+",
     conda:
         "../../environment.yml"
     params:

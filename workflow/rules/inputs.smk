@@ -8,27 +8,30 @@ def shards_of(pattern):
     return shards
 
 
-def column_shards(wildcards):
-    """Return the last files of a column that are made shape by shape."""
-    column = TABLES[wildcards.table]["columns"][wildcards.column]
+def trained(column):
+    """Return where the predictions of a column are, below results/."""
     if "baseline" in column:
-        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{shard}}.npz"
-    else:
-        images = f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
-        pattern = f"results/images/{{database}}/{images}/{{shard}}.npz"
-    return shards_of(pattern)(wildcards)
+        return f"baselines/{{database}}/{column['baseline']}"
+    images = f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
+    return f"learning/{{database}}/{images}/{column['network']}"
+
+
+def shown(column):
+    """Return what a column is trained on, made shape by shape: stage and method."""
+    if "baseline" in column:
+        return "baselines", column["baseline"]
+    return "images", f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
 
 
 def recipe(wildcards):
-    """Return how the images of a column are made, for other shapes to be shown to its network."""
-    column = TABLES[wildcards.table]["columns"][wildcards.column]
+    """Return how images are made, for other shapes to be shown to the network trained on them."""
 
     def plugin(spec):
         return {key: spec[key] for key in ("plugin", "target", "parameters")}
 
     return {
-        "parametrizer": plugin(PARAMETRIZERS[column["parametrizer"]]),
-        "descriptors": [plugin(DESCRIPTORS[one]) for one in column["descriptors"]],
+        "parametrizer": plugin(PARAMETRIZERS[wildcards.parametrizer]),
+        "descriptors": [plugin(DESCRIPTORS[one]) for one in wildcards.descriptors.split("+")],
         "eigenpairs": config["eigenpairs"],
         **config["images"],
     }
@@ -46,11 +49,8 @@ def channels(wildcards):
 def predictions(wildcards):
     """Return the predictions of a column under one protocol, one for each seed."""
     table = TABLES[wildcards.table]
-    column = table["columns"][wildcards.column]
-    if "baseline" in column:
-        pattern = f"results/baselines/{{database}}/{column['baseline']}/{{protocol}}-{{seed}}.npz"
-    else:
-        pattern = "results/learning/{table}/{database}/{column}/{protocol}-{seed}.npz"
+    folder = trained(table["columns"][wildcards.column])
+    pattern = f"results/{folder}/{{protocol}}-{{seed}}.npz"
     return expand(pattern, seed=table["seeds"], allow_missing=True)
 
 
@@ -69,16 +69,15 @@ def table_rows(wildcards):
     return [(database, protocol) for database in databases for protocol in PROTOCOLS[database]]
 
 
-def table_cells(pattern):
-    """Return an input function: a file for each database of a table and each of its columns."""
-
-    def cells(wildcards):
-        table = TABLES[wildcards.table]
-        return expand(
-            pattern, database=table["databases"], column=table["columns"], allow_missing=True
-        )
-
-    return cells
+def table_failures(wildcards):
+    """Return the shapes lost to each column of a table, database by database."""
+    table = TABLES[wildcards.table]
+    columns = [shown(column) for column in table["columns"].values()]
+    return [
+        f"results/failures/{stage}/{database}/{method}.json"
+        for database in table["databases"]
+        for stage, method in columns
+    ]
 
 
 def evaluations(wildcards):
@@ -108,11 +107,6 @@ def table_plugins(wildcards):
         "descriptor": picked(DESCRIPTORS, descriptors),
         "baseline": picked(BASELINES, [one["baseline"] for one in columns if "baseline" in one]),
     }
-
-
-def column_network(wildcards):
-    """Return the network of a column with all of its parameters."""
-    return NETWORKS[TABLES[wildcards.table]["columns"][wildcards.column]["network"]]
 
 
 def table_networks(wildcards):

@@ -1,20 +1,20 @@
 rule learn:
     input:
         split="results/datasets/{database}/splits/{protocol}-{seed}.csv",
-        images=column_shards,
-        complete=ancient("results/failures/{table}/{database}/{column}.json"),
+        images=shards_of("results/images/{database}/{parametrizer}/{descriptors}/{shard}.npz"),
+        complete=ancient("results/failures/images/{database}/{parametrizer}/{descriptors}.json"),
     output:
-        prediction="results/learning/{table}/{database}/{column}/{protocol}-{seed}.npz",
-        model="results/learning/{table}/{database}/{column}/{protocol}-{seed}.model.npz",
-        seconds="results/benchmarks/learning/{table}/{database}/{column}/{protocol}-{seed}.json",
+        prediction="results/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.npz",
+        model="results/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.model.npz",
+        seconds="results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.json",
     log:
-        "results/logs/learning/{table}/{database}/{column}/{protocol}-{seed}.log",
+        "results/logs/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.log",
     benchmark:
-        "results/benchmarks/learning/{table}/{database}/{column}/{protocol}-{seed}.tsv"
+        "results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.tsv"
     conda:
         "../../environment.yml"
     params:
-        network=column_network,
+        network=lookup("{network}", within=NETWORKS),
         recipe=recipe,
         code=fingerprint_module("gipkg.learning"),
     script:

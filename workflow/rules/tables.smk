@@ -1,7 +1,7 @@
 rule score_table:
     input:
         evaluations=evaluations,
-        failures=table_cells("results/failures/{table}/{database}/{column}.json"),
+        failures=table_failures,
         surveys=table_surveys,
         reference=lambda wildcards: Path(workflow.basedir)
         / f"results/reference/{wildcards.table}.csv",
