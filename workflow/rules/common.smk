@@ -45,7 +45,7 @@ def instance(kind, name):
     key = f"{kind}s.{name}"
     parameters = dict(config[f"{kind}s"][name])
     plugin, target = parameters.pop("plugin"), None
-    for reserved in ("shards", "protocols") if kind == "dataset" else ():
+    for reserved in ("shards", "protocols", "surface") if kind == "dataset" else ():
         parameters.pop(reserved, None)
     try:
         if ":" in plugin:
@@ -57,6 +57,11 @@ def instance(kind, name):
     except PluginError as error:
         raise WorkflowError(f"configuration, {key}: {error}") from error
     return {"plugin": plugin, "target": target, "parameters": parameters, "code": code}
+
+
+def surface_options(wildcards):
+    """Return what the surface stage is told about a database."""
+    return config["datasets"][wildcards.database].get("surface", {})
 
 
 def network(name):

@@ -11,6 +11,7 @@ rule surfaces:
         "../../environment.yml"
     params:
         dataset=lookup("{database}", within=DATASETS),
+        options=surface_options,
         code=fingerprint_module("gipkg.surfaces"),
     script:
         "../scripts/surfaces.py"
