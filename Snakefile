@@ -22,6 +22,10 @@ rule all:
     default_target: True
     input:
         expand("results/{table}.csv", table=[name for name in TABLES if TABLES[name]["databases"]]),
+        expand(
+            "results/{figure}.png",
+            figure=[name for name, table in CURVES.items() if TABLES[table]["databases"]],
+        ),
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",
         expand("results/figure{number}.png", number=range(1, 8)),

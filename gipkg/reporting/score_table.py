@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import mean, stdev
@@ -16,6 +16,9 @@ TITLES = {
 }
 METRICS = ("accuracy", "mAP")
 """Accuracy in percent, mean average precision in 0 to 1, as the paper prints them."""
+
+OWN = "Ours"
+"""What the paper calls its own method."""
 
 _DIGITS = {"accuracy": 2, "mAP": 4}
 _ABSENT = "–"
@@ -84,6 +87,11 @@ def read_reference(path: Path) -> Reference:
         if row[f"{method} accuracy"]
     }
     return Reference(methods, figures)
+
+
+def own_columns(columns: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return the headings of the columns, as configured, that are set against the paper's own."""
+    return [column["column"] for column in columns if column.get("paper") == OWN]
 
 
 def as_csv(rows: Sequence[Row], columns: Sequence[str]) -> tuple[list[str], list[list[str]]]:

@@ -1,5 +1,6 @@
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import yaml
 from jsonschema import Draft202012Validator
@@ -200,6 +201,9 @@ def alternatives(names):
 
 
 require_valid(config)
+
+CURVES = {"figure8": "table1", "figure_table2": "table2"}
+"""Precision-recall curves: figure -> table."""
 
 TABLES = chosen_tables()
 COLUMNS = [column for table in TABLES.values() for column in table["columns"].values()]

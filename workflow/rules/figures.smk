@@ -146,3 +146,25 @@ rule figure7:
         code=fingerprint_module("gipkg.reporting.figures.figure7"),
     script:
         "../scripts/figure7.py"
+
+
+rule precision_recall:
+    input:
+        drawn(evaluations),
+    output:
+        png="results/{figure}.png",
+        csv="results/{figure}.csv",
+        provenance="results/{figure}.json",
+    log:
+        "results/logs/{figure}.log",
+    wildcard_constraints:
+        figure=alternatives(CURVES),
+    conda:
+        "../../environment.yml"
+    params:
+        config=lambda wildcards: config[CURVES[wildcards.figure]],
+        rows=drawn(table_rows),
+        plugins=drawn(table_plugins),
+        code=fingerprint_module("gipkg.reporting.figures.precision_recall"),
+    script:
+        "../scripts/precision_recall.py"

@@ -117,6 +117,11 @@ def table_networks(wildcards):
     }
 
 
+def drawn(of_table):
+    """Return what a function says of a table as an input function of the table's curves."""
+    return lambda wildcards: of_table(SimpleNamespace(table=CURVES[wildcards.figure]))
+
+
 def table_config(wildcards):
     """Return the configuration without the sections that a table does not depend on."""
     other = {*TABLES, "distortion", "reconstruction", "figures"} - {wildcards.table}

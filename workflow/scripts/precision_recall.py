@@ -1,0 +1,27 @@
+"""Draw the precision-recall curves of a table: Figure 8 of Table 1."""
+
+import json
+from pathlib import Path
+
+from gipkg.files import write_csv, write_json
+from gipkg.reporting.figures import precision_recall
+from gipkg.reporting.figures.layout import write_png
+from gipkg.reporting.provenance import environment
+from gipkg.reporting.records import as_table
+from gipkg.reporting.score_table import own_columns
+
+import job
+
+job.start(snakemake)
+params = snakemake.params
+cells = [(*row, column["column"]) for row in params.rows for column in params.config["columns"]]
+points = [
+    point
+    for cell, path in zip(cells, snakemake.input, strict=True)
+    for point in precision_recall.curve(*cell, json.loads(Path(path).read_text(encoding="utf-8")))
+]
+own = own_columns(params.config["columns"])
+write_csv(Path(snakemake.output.csv), *as_table(points))
+write_png(Path(snakemake.output.png), precision_recall.draw(points, own))
+provenance = {**environment(), "config": params.config, "plugins": params.plugins}
+write_json(Path(snakemake.output.provenance), provenance)
