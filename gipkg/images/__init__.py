@@ -1,6 +1,6 @@
 """Spherical map and channels to geometry images, and images back to meshes."""
 
-from gipkg.images.cuts import random_cuts, standard_cuts
+from gipkg.images.cuts import random_cuts, standard_cuts, upright_cuts
 from gipkg.images.lookup import PixelLookup, geometry_image, lookup
 from gipkg.images.octahedron import Sampling
 from gipkg.images.padding import pad
@@ -15,4 +15,5 @@ __all__ = [
     "random_cuts",
     "reconstruct",
     "standard_cuts",
+    "upright_cuts",
 ]
