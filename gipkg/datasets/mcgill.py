@@ -156,11 +156,12 @@ class McGillChoice(McGillDataset):
         return chosen
 
 
-def _tags(shapes: int, classes: int, duplicates: Collection[str]) -> DatasetTags:
+def _tags(shapes: int, classes: int, duplicates: Collection[str], *, selected: bool) -> DatasetTags:
     return DatasetTags(
         generated=False,
         shapes=shapes,
         classes=classes,
+        selected=selected,
         licence="none stated",
         source=HOME,
         files={ARCHIVE: SHA256},
@@ -173,7 +174,7 @@ class McGill(McGillChoice):
 
     summary: ClassVar[str] = "McGill benchmark: 10 classes, articulated and not, x 20 volumes"
     tags: ClassVar[DatasetTags] = _tags(
-        PER_CLASS * len(MIXED), len(MIXED), ("four-b7", "tables-b14")
+        PER_CLASS * len(MIXED), len(MIXED), ("four-b7", "tables-b14"), selected=True
     )
     protocols: ClassVar[Mapping[str, Protocol]] = {"McGill1": Protocol(10), "McGill2": Protocol(16)}
     classes: ClassVar[tuple[str, ...]] = MIXED
@@ -183,7 +184,9 @@ class McGillArticulated(McGillChoice):
     """The ten articulated classes, of 20 shapes each."""
 
     summary: ClassVar[str] = "McGill benchmark: the 10 articulated classes x 20 volumes"
-    tags: ClassVar[DatasetTags] = _tags(PER_CLASS * len(ARTICULATED), len(ARTICULATED), ())
+    tags: ClassVar[DatasetTags] = _tags(
+        PER_CLASS * len(ARTICULATED), len(ARTICULATED), (), selected=True
+    )
     protocols: ClassVar[Mapping[str, Protocol]] = {
         "McGillArticulated1": Protocol(10),
         "McGillArticulated2": Protocol(16),
@@ -195,7 +198,7 @@ class McGill19(McGillDataset):
     """All 19 classes and all 452 distinct shapes, 11 to 31 a class."""
 
     summary: ClassVar[str] = "McGill benchmark whole: 452 volumes in 19 classes"
-    tags: ClassVar[DatasetTags] = _tags(452, 19, DUPLICATES)
+    tags: ClassVar[DatasetTags] = _tags(452, 19, DUPLICATES, selected=False)
     protocols: ClassVar[Mapping[str, Protocol]] = {"McGill19": Protocol(0.5)}
 
     def _choose(self, label: str, ids: list[str]) -> list[str]:

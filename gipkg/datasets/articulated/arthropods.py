@@ -6,7 +6,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from gipkg.datasets.articulated.skeleton import Skeleton
-from gipkg.datasets.articulated.variation import joint, limb_lengths, taper, vary
+from gipkg.datasets.articulated.variation import joint, limb_lengths, taper
+from gipkg.datasets.proportions import vary
 
 LEFT, RIGHT = 1.0, -1.0
 

@@ -6,7 +6,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from gipkg.datasets.articulated.skeleton import Skeleton
-from gipkg.datasets.articulated.variation import joint, limb_lengths, meander, taper, vary
+from gipkg.datasets.articulated.variation import joint, limb_lengths, meander, taper
+from gipkg.datasets.proportions import vary
 
 UP = Rotation.from_euler("Y", -np.pi / 2)
 """Frame whose x axis points up, and whose y axis points to the body's left."""

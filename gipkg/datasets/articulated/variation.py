@@ -6,13 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from gipkg.datasets.proportions import vary
+
 STUNTED = 0.06
 """Share of limbs that are much shorter than their fellows."""
-
-
-def vary(rng: np.random.Generator, value: float, spread: float) -> float:
-    """Multiply `value` by a factor log-uniform in [exp(-spread), exp(spread)]."""
-    return value * float(np.exp(rng.uniform(-spread, spread)))
 
 
 def limb_lengths(
