@@ -19,7 +19,7 @@ def area_centroid(mesh: trimesh.Trimesh) -> tuple[NDArray[np.float64], NDArray[n
     corners = vertices[faces]
     edges = corners[:, 1:] - corners[:, :1]
     thirds = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 6
-    areas = np.bincount(faces.ravel(), np.repeat(thirds, 3), len(vertices))
+    areas = np.bincount(faces.ravel(), np.repeat(thirds, 3), len(vertices)).astype(np.float64)
     return areas @ vertices / areas.sum(), areas
 
 
