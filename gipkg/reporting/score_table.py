@@ -17,10 +17,12 @@ TITLES = {
 METRICS = ("accuracy", "mAP")
 """Accuracy in percent, mean average precision in 0 to 1, as the paper prints them."""
 
+DIGITS = {"accuracy": 2, "mAP": 4}
+"""Digits after the point."""
+
 OWN = "Ours"
 """What the paper calls its own method."""
 
-_DIGITS = {"accuracy": 2, "mAP": 4}
 _ABSENT = "–"
 
 
@@ -38,6 +40,10 @@ class Cell:
             accuracy=tuple(100 * split["accuracy"] for split in scores),
             mAP=tuple(split["mean_average_precision"] for split in scores),
         )
+
+    def mean(self, metric: str) -> float:
+        """Return the mean of a metric over the splits."""
+        return mean(getattr(self, metric))
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +193,7 @@ def _measured(cell: Cell) -> str:
 
 
 def _mean_and_std(cell: Cell, metric: str) -> tuple[str, str]:
-    values, digits = getattr(cell, metric), _DIGITS[metric]
+    values, digits = getattr(cell, metric), DIGITS[metric]
     std = f"{stdev(values):.{digits}f}" if len(values) > 1 else ""
     return f"{mean(values):.{digits}f}", std
 

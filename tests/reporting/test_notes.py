@@ -3,7 +3,9 @@ from __future__ import annotations
 import pytest
 
 from gipkg import registry
+from gipkg.api import Shape
 from gipkg.reporting import notes
+from gipkg.reporting.score_table import Cell, Row
 from gipkg.reporting.survey import Survey, survey
 
 
@@ -55,3 +57,30 @@ def test_failures_are_named_with_nothing_of_them_taken_as_markup() -> None:
     note = notes.failure_note("Ours", "db", {"b": "open", "a`|<b>": "two\nlines"})
     assert note.endswith("`a'¦<b>` (`two lines`); `b` (`open`).")
     assert "lost 2 shapes of `db`" in note
+
+
+def test_the_seeds_of_every_database_are_said() -> None:
+    note = notes.seeds_note({"real": [0, 1, 2], "made": [0]})
+    assert note.startswith("Random splits from the seeds 0, 1, 2 (`real`); 0 (`made`);")
+
+
+def test_chosen_shapes_are_named_class_by_class() -> None:
+    shapes = [Shape("ants-b1", "ants"), Shape("ants-7", "ants"), Shape("T3", "man|woman")]
+    note = notes.selection_note("some", shapes)
+    assert note == "The 3 shapes of `some` by class: `ants` `b1, 7`; `man¦woman` `T3`."
+
+
+def test_who_is_ahead_is_computed() -> None:
+    def row(split: str, **figures: tuple[float, float]) -> Row:
+        return Row(
+            "db", split, {name: Cell((a - 1, a + 1), (m, m)) for name, (a, m) in figures.items()}
+        )
+
+    rows = [row("A", Ours=(95, 0.9), Other=(95, 0.91)), row("B", Ours=(90, 0.8), Other=(91.5, 0.7))]
+    note = notes.ahead_note(rows, "Ours")
+    assert note == (
+        "Other columns are ahead of **Ours**: A mAP, Other 0.9100 against 0.9000; "
+        "B accuracy, Other 91.50 against 90.00."
+    )
+    note = notes.ahead_note([row("A", Ours=(95, 0.9), Other=(95, 0.9))], "Ours")
+    assert note == "On no row does another column have a higher mean than **Ours**."

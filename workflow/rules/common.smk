@@ -11,6 +11,7 @@ from snakemake.utils import min_version
 from gipkg import registry
 from gipkg.errors import PluginError, did_you_mean
 from gipkg.fingerprints import fingerprint_module
+from gipkg.images.config import ImageConfig
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.parameters import validated
 from gipkg.shards import shard_of
@@ -46,7 +47,7 @@ def instance(kind, name):
     key = f"{kind}s.{name}"
     parameters = dict(config[f"{kind}s"][name])
     plugin, target = parameters.pop("plugin"), None
-    for reserved in ("shards", "protocols", "surface") if kind == "dataset" else ():
+    for reserved in ("shards", "splits", "protocols", "surface") if kind == "dataset" else ():
         parameters.pop(reserved, None)
     try:
         if ":" in plugin:
@@ -78,6 +79,14 @@ def network(name):
         raise WorkflowError(f"configuration, networks.{name}: {error}") from error
 
 
+def image_config(name):
+    """Resolve images to all of their parameters, defaults included."""
+    try:
+        return validated(ImageConfig, "images", config["images"][name]).model_dump()
+    except PluginError as error:
+        raise WorkflowError(f"configuration, images.{name}: {error}") from error
+
+
 def slug(column):
     """Turn the heading of a column into a name for files."""
     return re.sub("[^a-z0-9]+", "-", column.lower()).strip("-")
@@ -95,6 +104,7 @@ def chosen_columns(table):
             require_defined(f"{key}.descriptors", descriptor, "descriptors")
         if "network" in column:
             require_defined(f"{key}.network", column["network"], "networks")
+            require_defined(f"{key}.images", column.get("images", "standard"), "images")
         name = slug(column["column"])
         if name in columns:
             raise WorkflowError(f"configuration, {key}: {name!r} names two columns")
@@ -176,6 +186,21 @@ def chosen_subjects():
     return {"figure1": first, **{figure: [subject] for figure in others}}
 
 
+def chosen_scenes():
+    """Return the shapes of the page's view: those whose database is at hand."""
+    for number, subject in enumerate(config["page"]["shapes"]):
+        require_defined(f"page.shapes.{number}.database", subject["database"], "datasets")
+    for kind in ("parametrizers", "descriptors"):
+        for name in config["page"][kind]:
+            require_defined(f"page.{kind}", name, kind)
+    root = Path(config["data_root"])
+    return [
+        subject
+        for subject in config["page"]["shapes"]
+        if dataset_plugin(subject["database"]).available(root)
+    ]
+
+
 def dataset_plugin(name):
     spec = instance("dataset", name)
     return registry.create("dataset", spec["plugin"], spec["parameters"])
@@ -219,7 +244,8 @@ for figure in SUBJECTS:
     for name in config["figures"][figure]["parametrizers"]:
         require_defined(f"figures.{figure}.parametrizers", name, "parametrizers")
 
-PICTURED = [subject["database"] for subjects in SUBJECTS.values() for subject in subjects]
+ON_PAGE = chosen_scenes()
+PICTURED = [one["database"] for subjects in (*SUBJECTS.values(), ON_PAGE) for one in subjects]
 DATASETS = instances("dataset", (*CLASSIFIED, *MAPPED, *PICTURED))
 PARAMETRIZERS = instances(
     "parametrizer",
@@ -228,11 +254,19 @@ PARAMETRIZERS = instances(
         *METHODS,
         *config["reconstruction"]["parametrizers"],
         *(name for figure in SUBJECTS for name in config["figures"][figure]["parametrizers"]),
+        *config["page"]["parametrizers"],
     ),
 )
-DESCRIPTORS = instances("descriptor", (one for column in LEARNED for one in column["descriptors"]))
+DESCRIPTORS = instances(
+    "descriptor",
+    (
+        *(one for column in LEARNED for one in column["descriptors"]),
+        *config["page"]["descriptors"],
+    ),
+)
 BASELINES = instances("baseline", (one["baseline"] for one in COLUMNS if "baseline" in one))
 NETWORKS = {column["network"]: network(column["network"]) for column in LEARNED}
+IMAGES = {name: image_config(name) for name in config["images"]}
 
 
 wildcard_constraints:
@@ -240,6 +274,7 @@ wildcard_constraints:
     parametrizer=alternatives(PARAMETRIZERS),
     descriptor=alternatives(DESCRIPTORS),
     descriptors="[a-z0-9+-]+",
+    images=alternatives(IMAGES),
     network=alternatives(NETWORKS),
     baseline=alternatives(BASELINES),
     table=alternatives(TABLES),

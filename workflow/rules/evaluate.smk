@@ -27,7 +27,7 @@ rule evaluate:
     conda:
         "../../environment.yml"
     params:
-        seeds=lookup("{table}/seeds", within=TABLES),
+        seeds=seeds,
         code=fingerprint_module("gipkg.evaluation.scores"),
     script:
         "../scripts/evaluate.py"
@@ -72,7 +72,7 @@ rule reconstruct:
     params:
         shapes=config["reconstruction"]["shapes"],
         sizes=config["reconstruction"]["sizes"],
-        sampling=config["images"]["sampling"],
+        sampling=IMAGES["standard"]["sampling"],
         code=[
             fingerprint_module(name)
             for name in ("gipkg.evaluation.surface_distance", "gipkg.images")

@@ -8,19 +8,24 @@ def shards_of(pattern):
     return shards
 
 
+def images_of(column):
+    """Return where the images of a learned column are, below their database."""
+    descriptors = "+".join(column["descriptors"])
+    return f"{column['parametrizer']}/{descriptors}/{column.get('images', 'standard')}"
+
+
 def trained(column):
     """Return where the predictions of a column are, below results/."""
     if "baseline" in column:
         return f"baselines/{{database}}/{column['baseline']}"
-    images = f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
-    return f"learning/{{database}}/{images}/{column['network']}"
+    return f"learning/{{database}}/{images_of(column)}/{column['network']}"
 
 
 def shown(column):
     """Return what a column is trained on, made shape by shape: stage and method."""
     if "baseline" in column:
         return "baselines", column["baseline"]
-    return "images", f"{column['parametrizer']}/{'+'.join(column['descriptors'])}"
+    return "images", images_of(column)
 
 
 def recipe(wildcards):
@@ -33,7 +38,7 @@ def recipe(wildcards):
         "parametrizer": plugin(PARAMETRIZERS[wildcards.parametrizer]),
         "descriptors": [plugin(DESCRIPTORS[one]) for one in wildcards.descriptors.split("+")],
         "eigenpairs": config["eigenpairs"],
-        **config["images"],
+        **IMAGES[wildcards.images],
     }
 
 
@@ -51,16 +56,27 @@ def predictions(wildcards):
     table = TABLES[wildcards.table]
     folder = trained(table["columns"][wildcards.column])
     pattern = f"results/{folder}/{{protocol}}-{{seed}}.npz"
-    return expand(pattern, seed=table["seeds"], allow_missing=True)
+    return expand(pattern, seed=seeds(wildcards), allow_missing=True)
+
+
+def table_seeds(wildcards):
+    """Return the seeds that each database of a table takes: all of the table, or the first few."""
+    table = TABLES[wildcards.table]
+    return {
+        database: table["seeds"][: config["datasets"][database].get("splits")]
+        for database in table["databases"]
+    }
+
+
+def seeds(wildcards):
+    """Return the seeds of a table that a database takes."""
+    return table_seeds(wildcards)[wildcards.database]
 
 
 def splits(wildcards):
     """Return the splits of a database under one protocol, one for each seed of a table."""
-    return expand(
-        "results/datasets/{database}/splits/{protocol}-{seed}.csv",
-        seed=TABLES[wildcards.table]["seeds"],
-        allow_missing=True,
-    )
+    pattern = "results/datasets/{database}/splits/{protocol}-{seed}.csv"
+    return expand(pattern, seed=seeds(wildcards), allow_missing=True)
 
 
 def table_rows(wildcards):
@@ -87,6 +103,23 @@ def evaluations(wildcards):
         for database, protocol in table_rows(wildcards)
         for column in TABLES[wildcards.table]["columns"]
     ]
+
+
+def timings(wildcards):
+    """Return what the trainings of a table took: row by row, column by column, seed by seed."""
+    chosen = table_seeds(wildcards)
+    return [
+        f"results/benchmarks/{trained(column)}/{protocol}-{seed}.json".format(database=database)
+        for database, protocol in table_rows(wildcards)
+        for column in TABLES[wildcards.table]["columns"].values()
+        for seed in chosen[database]
+    ]
+
+
+def table_listings(wildcards):
+    """Return the lists of shapes of the databases of a table."""
+    databases = TABLES[wildcards.table]["databases"]
+    return expand("results/datasets/{database}/shapes.csv", database=databases)
 
 
 def table_surveys(wildcards):
@@ -128,14 +161,16 @@ def table_config(wildcards):
     return {key: part for key, part in config.items() if key not in other}
 
 
+def surface_shard(subject):
+    """Return the shard with the surface of one shape."""
+    count = config["datasets"][subject["database"]]["shards"]
+    shard = shard_of(subject["shape"], count)
+    return f"results/surfaces/{subject['database']}/{shard}.npz"
+
+
 def figure_surfaces(figure):
     """Return the shards with the shapes that a figure shows, one for each of them."""
-    files = []
-    for subject in SUBJECTS[figure]:
-        count = config["datasets"][subject["database"]]["shards"]
-        shard = shard_of(subject["shape"], count)
-        files.append(f"results/surfaces/{subject['database']}/{shard}.npz")
-    return files
+    return [surface_shard(subject) for subject in SUBJECTS[figure]]
 
 
 def figure_params(figure):

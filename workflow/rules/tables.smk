@@ -3,10 +3,13 @@ rule score_table:
         evaluations=evaluations,
         failures=table_failures,
         surveys=table_surveys,
+        listings=table_listings,
+        timings=timings,
         reference=lambda wildcards: Path(workflow.basedir)
         / f"results/reference/{wildcards.table}.csv",
     output:
         csv="results/{table}.csv",
+        seconds="results/{table}_seconds.csv",
         markdown="results/{table}.md",
         provenance="results/{table}.json",
     log:
@@ -16,6 +19,7 @@ rule score_table:
     params:
         config=table_config,
         rows=table_rows,
+        seeds=table_seeds,
         plugins=table_plugins,
         networks=table_networks,
         code=[

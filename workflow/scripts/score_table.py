@@ -4,15 +4,19 @@ import json
 from pathlib import Path
 from typing import Any
 
-from gipkg.files import write_csv, write_json, write_text
+from gipkg.api import Shape
+from gipkg.files import read_csv, write_csv, write_json, write_text
 from gipkg.reporting import notes, score_table
 from gipkg.reporting.provenance import environment
+from gipkg.reporting.records import as_table
 from gipkg.reporting.survey import Survey
+from gipkg.reporting.trainings import Training
 
 import job
 
 job.start(snakemake)
-config, rows = snakemake.params.config, snakemake.params.rows
+config, rows = snakemake.params.config, [tuple(row) for row in snakemake.params.rows]
+seeds = snakemake.params.seeds
 name = snakemake.wildcards.table
 columns = config[name]["columns"]
 headings = [column["column"] for column in columns]
@@ -43,6 +47,12 @@ text = [
     )
     for database in databases
 ]
+listings = zip(databases, snakemake.input.listings, strict=True)
+text += [
+    notes.selection_note(database, [Shape(row["id"], row["label"]) for row in read_csv(Path(path))])
+    for database, path in listings
+    if plugins["dataset", database].tags.selected
+]
 text += [notes.column_note(column, plugins) for column in columns]
 text += [
     notes.failure_note(heading, database, failures[database][heading])
@@ -50,8 +60,16 @@ text += [
     for heading in headings
     if failures[database][heading]
 ]
-text.append(notes.seeds_note(config[name]["seeds"]))
+text.append(notes.seeds_note(seeds))
+text += [notes.ahead_note(table, own) for own in score_table.own_columns(columns)[:1]]
 
+timings = map(read, snakemake.input.timings)
+taken = [
+    Training.of(*row, heading, [next(timings) for _ in seeds[row[0]]])
+    for row in rows
+    for heading in headings
+]
+write_csv(Path(snakemake.output.seconds), *as_table(taken))
 header, lines = score_table.as_csv(table, headings)
 write_csv(Path(snakemake.output.csv), header, lines)
 in_paper = {column["column"]: column.get("paper") for column in columns}
