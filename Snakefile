@@ -18,8 +18,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 
 
-rule all:
-    default_target: True
+rule paper:
     input:
         expand("results/{table}.csv", table=[name for name in TABLES if TABLES[name]["databases"]]),
         expand(
@@ -29,3 +28,13 @@ rule all:
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",
         expand("results/figure{number}.png", number=range(1, 8)),
+
+
+include: "workflow/rules/page.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        rules.paper.input,
+        "results/index.html",

@@ -28,6 +28,9 @@ CUT = (0.8, 0.05, 0.05)
 """Lines where a sphere is cut."""
 
 
+SEQUENTIAL = "viridis"
+"""Matplotlib's name of the scale from dark to light."""
+
 DIVERGING = "RdBu_r"
 """Matplotlib's name of the scale from -1 (blue) over 0 (white) to 1 (red)."""
 
@@ -42,7 +45,7 @@ def sequential(values: NDArray[np.floating]) -> NDArray[np.float64]:
     from matplotlib import colormaps
 
     low, high = np.min(values), np.max(values)
-    return colormaps["viridis"]((values - low) / ((high - low) or 1.0))[:, :3]
+    return colormaps[SEQUENTIAL]((values - low) / ((high - low) or 1.0))[:, :3]
 
 
 def diverging(values: NDArray[np.floating], limit: float) -> NDArray[np.float64]:

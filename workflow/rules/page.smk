@@ -1,0 +1,39 @@
+rule scenes:
+    input:
+        [surface_shard(subject) for subject in ON_PAGE],
+    output:
+        "results/page/scenes.json",
+    log:
+        "results/logs/page/scenes.log",
+    benchmark:
+        "results/benchmarks/page/scenes.tsv"
+    conda:
+        "../../environment.yml"
+    params:
+        shapes=ON_PAGE,
+        eigenpairs=config["eigenpairs"],
+        plugins={
+            "dataset": picked(DATASETS, [subject["database"] for subject in ON_PAGE]),
+            "parametrizer": picked(PARAMETRIZERS, config["page"]["parametrizers"]),
+            "descriptor": picked(DESCRIPTORS, config["page"]["descriptors"]),
+        },
+        code=fingerprint_module("gipkg.reporting.page.scene"),
+    script:
+        "../scripts/scenes.py"
+
+
+rule page:
+    input:
+        rules.paper.input,
+        scenes="results/page/scenes.json",
+        paper=Path(workflow.basedir) / "results" / "reference" / "paper.yaml",
+    output:
+        "results/index.html",
+    log:
+        "results/logs/page/page.log",
+    conda:
+        "../../environment.yml"
+    params:
+        code=fingerprint_module("gipkg.reporting.page.html"),
+    script:
+        "../scripts/page.py"
