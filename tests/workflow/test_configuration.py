@@ -17,7 +17,14 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
     [
         ({"colums": []}, ["the top level", "'colums'", "table1", "eigenpairs"]),
         ({"eigenpairs": "many"}, ["eigenpairs", "'many'", "integer"]),
-        ({"images": {"sampling": "authors'"}}, ["images.sampling", "equal-area", "authors"]),
+        (
+            {"images": {"standard": {"sampling": "authors'"}}},
+            ["images.standard", "sampling", "equal-area", "authors"],
+        ),
+        (
+            {"table2": {"columns": [{"column": "A", **LEARNED, "images": "upwright"}]}},
+            ["table2.columns.0.images", "did you mean 'upright'"],
+        ),
         ({"table2": {"seed": [0]}}, ["table2", "'seed'", "keys: databases, columns, seeds"]),
         (
             {"table1": {"databases": ["tini"]}},
@@ -134,7 +141,7 @@ def test_the_variant_as_in_the_paper_can_be_chosen(tmp_path: Path) -> None:
     config = {"table1": {"columns": [{"column": "2016", **column}]}}
     done = Workdir(tmp_path).run("--dry-run", config=config)
     assert done.returncode == 0, done.stdout
-    assert "results/images/tiny/authalic/hks-raw/0.npz" in done.stdout
+    assert "results/images/tiny/authalic/hks-raw/standard/0.npz" in done.stdout
 
 
 def test_every_key_is_explained() -> None:

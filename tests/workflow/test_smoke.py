@@ -36,7 +36,7 @@ def test_the_tables_keep_their_columns_of_one_heading_apart(smoke: Workdir) -> N
         provenance = json.loads((smoke.path / f"results/{table}.json").read_text())
         assert list(provenance["plugins"]["descriptor"]) == [descriptor]
         trained = smoke.path / "results/learning/tiny/authalic" / descriptor
-        assert (trained / "shallow/Tiny1-0.npz").exists()
+        assert (trained / "standard/shallow/Tiny1-0.npz").exists()
 
 
 def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
@@ -44,7 +44,7 @@ def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
         ids = {row["id"] for row in csv.DictReader(stream)}
     assert len(ids) == 40
     for column in ("conformal", "authalic"):
-        folder = smoke.path / "results/images/tiny" / column / "hks"
+        folder = smoke.path / "results/images/tiny" / column / "hks/standard"
         shards = [Shard.open(path) for path in sorted(folder.iterdir())]
         assert len(shards) == 2
         assert {shape_id for shard in shards for shape_id in shard} == ids
@@ -144,7 +144,7 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
 
 def test_every_training_left_its_seconds_among_the_timings(smoke: Workdir) -> None:
     results = smoke.path / "results"
-    learned = [*results.glob("learning/tiny/*/*/*/Tiny1-?.npz")]
+    learned = [*results.glob("learning/tiny/*/*/*/*/Tiny1-?.npz")]
     trained = [*learned, *results.glob("baselines/tiny/*/Tiny1-?.npz")]
     assert len(trained) == 9
     for prediction in trained:
@@ -199,12 +199,12 @@ def test_a_killed_run_is_taken_up_by_the_same_command(smoke: Workdir, tmp_path: 
 
 def test_a_damaged_intermediate_file_is_named(smoke: Workdir, tmp_path: Path) -> None:
     workdir = smoke.copy(tmp_path)
-    damaged = "results/images/tiny/authalic/hks/0.npz"
+    damaged = "results/images/tiny/authalic/hks/standard/0.npz"
     content = (tmp_path / damaged).read_bytes()
     (tmp_path / damaged).unlink()
     (tmp_path / damaged).write_bytes(content[: len(content) // 2])
     done = workdir.run(
-        "results/learning/tiny/authalic/hks/shallow/Tiny1-0.npz", "--forcerun", "learn"
+        "results/learning/tiny/authalic/hks/standard/shallow/Tiny1-0.npz", "--forcerun", "learn"
     )
     assert done.returncode != 0
     assert f"DamagedFileError: {damaged}" in done.stdout

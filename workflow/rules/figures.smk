@@ -136,7 +136,7 @@ rule figure7:
         "../../environment.yml"
     params:
         config=config["distortion"],
-        sampling=config["images"]["sampling"],
+        sampling=IMAGES["standard"]["sampling"],
         methods=list(METHODS),
         databases=MAPPED,
         plugins={

@@ -4,15 +4,15 @@ rule images:
         maps="results/parametrizers/{database}/{parametrizer}/{shard}.npz",
         descriptors=channels,
     output:
-        "results/images/{database}/{parametrizer}/{descriptors}/{shard}.npz",
+        "results/images/{database}/{parametrizer}/{descriptors}/{images}/{shard}.npz",
     log:
-        "results/logs/images/{database}/{parametrizer}/{descriptors}/{shard}.log",
+        "results/logs/images/{database}/{parametrizer}/{descriptors}/{images}/{shard}.log",
     benchmark:
-        "results/benchmarks/images/{database}/{parametrizer}/{descriptors}/{shard}.tsv"
+        "results/benchmarks/images/{database}/{parametrizer}/{descriptors}/{images}/{shard}.tsv"
     conda:
         "../../environment.yml"
     params:
-        images=config["images"],
+        images=lookup("{images}", within=IMAGES),
         code=fingerprint_module("gipkg.images"),
     script:
         "../scripts/images.py"

@@ -1,16 +1,20 @@
 rule learn:
     input:
         split="results/datasets/{database}/splits/{protocol}-{seed}.csv",
-        images=shards_of("results/images/{database}/{parametrizer}/{descriptors}/{shard}.npz"),
-        complete=ancient("results/failures/images/{database}/{parametrizer}/{descriptors}.json"),
+        images=shards_of(
+            "results/images/{database}/{parametrizer}/{descriptors}/{images}/{shard}.npz"
+        ),
+        complete=ancient(
+            "results/failures/images/{database}/{parametrizer}/{descriptors}/{images}.json"
+        ),
     output:
-        prediction="results/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.npz",
-        model="results/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.model.npz",
-        seconds="results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.json",
+        prediction="results/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.npz",
+        model="results/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.model.npz",
+        seconds="results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.json",
     log:
-        "results/logs/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.log",
+        "results/logs/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.log",
     benchmark:
-        "results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{network}/{protocol}-{seed}.tsv"
+        "results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.tsv"
     conda:
         "../../environment.yml"
     params:
