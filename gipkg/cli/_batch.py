@@ -85,14 +85,25 @@ def convert(
     """Make one file of each, as :func:`for_each` does, and replace none unless forced to."""
 
     def one(job: Job) -> Facts:
-        if job.target.exists() and not force:
-            raise click.ClickException(f"{job.target} exists already; --force replaces it")
+        require_absent(job.target, force)
         return {"output": str(job.target), **work(job)}
 
     def said(facts: Facts) -> str:
         return f"{facts['output']}: {say(facts)}"
 
     for_each(label, jobs, one, say=said, as_json=as_json)
+
+
+def require_absent(target: Path, force: bool) -> None:
+    """Refuse to replace a file, unless forced to.
+
+    Raises
+    ------
+    click.ClickException
+        It exists.
+    """
+    if target.exists() and not force:
+        raise click.ClickException(f"{target} exists already; --force replaces it")
 
 
 def for_each(

@@ -16,6 +16,14 @@ json_option = click.option("--json", "as_json", is_flag=True, help="One JSON obj
 
 force_option = click.option("--force", is_flag=True, help="Replace files that exist.")
 
+allow_option = click.option(
+    "--allow",
+    "allowed",
+    metavar="FILE.py:CLASS",
+    multiple=True,
+    help="Run this plugin, in a file, where the network's images were made by it.",
+)
+
 
 def files_argument(metavar: str) -> Callable[[Command], Command]:
     """One or more files; what is wrong with one of them is said when its turn comes."""
