@@ -47,6 +47,10 @@ class DatasetNotFound(GipkgError):
     """A database's files are neither under the data root nor to be downloaded."""
 
 
+class DatasetLayoutError(GipkgError):
+    """A folder of one's own cannot be read as a database; the message names what is at fault."""
+
+
 class TooManyFailures(GipkgError):
     """More shapes of a database failed than a run allows; the message lists them."""
 

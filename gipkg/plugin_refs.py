@@ -60,6 +60,7 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
     },
     "dataset": {
         "articulated": "gipkg.datasets.articulated:Articulated",
+        "folder": "gipkg.datasets.folder:Folder",
         "furniture": "gipkg.datasets.furniture:Furniture",
         "mcgill": "gipkg.datasets.mcgill:McGill",
         "mcgill-articulated": "gipkg.datasets.mcgill:McGillArticulated",

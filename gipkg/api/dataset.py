@@ -103,6 +103,10 @@ class Dataset(Plugin):
         """Axis that points up in every shape; None, the default, where nothing does."""
         return None
 
+    def stamp(self, root: Path) -> str:
+        """Return what changes when the files do; nothing where they have known checksums."""
+        return ""
+
     @abstractmethod
     def available(self, root: Path) -> bool:
         """Whether `load` works with what lies under the data root; touches no network."""

@@ -24,7 +24,7 @@ from gipkg.testing.suite import Suite, require
 if TYPE_CHECKING:
     import trimesh
 
-SUITE = Suite(floor=9)
+SUITE = Suite(floor=8)
 add_common_checks(SUITE)
 
 SAMPLE = 4

@@ -54,11 +54,15 @@ def instance(kind, name):
             plugin, target = name, plugin
             registry.register_local(kind, name, target)
         code = registry.fingerprint(kind, plugin)
-        if parameters:
+        spec = {"plugin": plugin, "target": target, "parameters": parameters, "code": code}
+        if kind == "dataset":
+            dataset = registry.create(kind, plugin, parameters)
+            spec["stamp"] = dataset.stamp(Path(config["data_root"]))
+        elif parameters:
             registry.create(kind, plugin, parameters)
     except PluginError as error:
         raise WorkflowError(f"configuration, {key}: {error}") from error
-    return {"plugin": plugin, "target": target, "parameters": parameters, "code": code}
+    return spec
 
 
 def surface_options(wildcards):
