@@ -8,6 +8,8 @@ rule figure1:
         provenance="results/figure1.json",
     log:
         "results/logs/figure1.log",
+    benchmark:
+        "results/benchmarks/figure1.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -25,6 +27,8 @@ rule figure2:
         provenance="results/figure2.json",
     log:
         "results/logs/figure2.log",
+    benchmark:
+        "results/benchmarks/figure2.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -42,6 +46,8 @@ rule figure3:
         provenance="results/figure3.json",
     log:
         "results/logs/figure3.log",
+    benchmark:
+        "results/benchmarks/figure3.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -59,6 +65,8 @@ rule figure4:
         provenance="results/figure4.json",
     log:
         "results/logs/figure4.log",
+    benchmark:
+        "results/benchmarks/figure4.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -76,6 +84,8 @@ rule figure5:
         provenance="results/figure5.json",
     log:
         "results/logs/figure5.log",
+    benchmark:
+        "results/benchmarks/figure5.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -93,6 +103,8 @@ rule figure6:
         provenance="results/figure6.json",
     log:
         "results/logs/figure6.log",
+    benchmark:
+        "results/benchmarks/figure6.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -132,6 +144,8 @@ rule figure7:
         provenance="results/figure7.json",
     log:
         "results/logs/figure7.log",
+    benchmark:
+        "results/benchmarks/figure7.tsv"
     conda:
         "../../environment.yml"
     params:

@@ -45,6 +45,8 @@ rule table_distortion:
         provenance="results/table_distortion.json",
     log:
         "results/logs/table_distortion.log",
+    benchmark:
+        "results/benchmarks/table_distortion.tsv"
     conda:
         "../../environment.yml"
     params:
@@ -73,6 +75,8 @@ rule table_reconstruction:
         provenance="results/table_reconstruction.json",
     log:
         "results/logs/table_reconstruction.log",
+    benchmark:
+        "results/benchmarks/table_reconstruction.tsv"
     conda:
         "../../environment.yml"
     params:

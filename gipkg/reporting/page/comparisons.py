@@ -113,7 +113,7 @@ def compare_scores(
                         value,
                         spread,
                         text,
-                        column in in_paper,
+                        column in in_paper or not rows,
                         paper,
                     )
                 )
