@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import trimesh
 
 import gipkg
 from gipkg.cli._scaffold import write_package
@@ -19,6 +20,29 @@ from gipkg.registry import KINDS
 REPOSITORY = Path(__file__).resolve().parents[1]
 PIP = (sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check")
 BARE = ("--no-deps", "--no-build-isolation", "--no-index")
+
+EXTRAS = ("jsonschema", "matplotlib", "pyvista", "snakemake", "torch", "vtk", "vtkmodules", "yaml")
+
+WITHOUT_EXTRAS = f"""
+import sys
+
+class Hiding:
+    def __init__(self, finder):
+        self.finder = finder
+
+    def find_spec(self, name, path=None, target=None):
+        hidden = name.partition(".")[0] in {EXTRAS}
+        return None if hidden else self.finder.find_spec(name, path, target)
+
+    def __getattr__(self, name):
+        return getattr(self.finder, name)
+
+sys.meta_path[:] = map(Hiding, sys.meta_path)
+import gipkg
+sys.stderr.write(gipkg.__file__ + "\\n")
+from gipkg.cli import main
+main()
+"""
 
 
 @pytest.fixture(scope="module")
@@ -54,25 +78,85 @@ def test_a_new_package_holds_no_placeholder(installed: Path) -> None:
             assert "my_method" not in str(path.relative_to(installed.parent))
 
 
-def test_the_wheel_holds_the_template_the_licence_and_the_typing_marker(tmp_path: Path) -> None:
-    source = tmp_path / "source"
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build the wheel from what a source distribution holds."""
+    folder = tmp_path_factory.mktemp("wheel")
+    source = folder / "source"
     source.mkdir()
     for name in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(REPOSITORY / name, source)
     ignored = shutil.ignore_patterns("__pycache__")
     shutil.copytree(REPOSITORY / "gipkg", source / "gipkg", ignore=ignored)
-    subprocess.run([*PIP, "wheel", *BARE, "--wheel-dir", tmp_path, source], check=True)
-    (wheel,) = tmp_path.glob("*.whl")
+    subprocess.run([*PIP, "wheel", *BARE, "--wheel-dir", folder, source], check=True)
+    (built,) = folder.glob("*.whl")
+    return built
+
+
+def test_the_wheel_holds_every_file_of_the_package_and_the_licence(wheel: Path) -> None:
     held = set(zipfile.ZipFile(wheel).namelist())
+    source = wheel.parent / "source"
     shipped = {
         path.relative_to(source).as_posix()
         for path in (source / "gipkg").rglob("*")
-        if path.suffix == ".py" or "template" in path.parts or path.name == "py.typed"
         if path.is_file()
     }
-    assert "gipkg/cli/template/src/gipkg_my_method/descriptor.py" in shipped
+    assert {"gipkg/py.typed", "gipkg/cli/template/pyproject.toml"} <= shipped
     assert shipped <= held
+    others = {name for name in held - shipped if ".dist-info/" not in name}
+    assert others == set()
     assert f"gipkg-{gipkg.__version__}.dist-info/licenses/LICENSE" in held
+
+
+def test_the_wheel_alone_has_every_command_and_plugin_without_any_extra(
+    wheel: Path, tmp_path: Path
+) -> None:
+    site = tmp_path / "site"
+    subprocess.run([*PIP, "install", *BARE, "--target", site, wheel], check=True)
+    for arguments in (("plugins", "doctor"), ("--help",), ("data", "list"), ("image", "--help")):
+        run = run_without_extras(site, *arguments, folder=tmp_path)
+        assert run.returncode == 0, run.stdout + run.stderr
+    for arguments, extra in (
+        (("view", "box.stl", "-o", "box.png"), "figures"),
+        (("index", ".", "--network", wheel), "learn"),
+        (("search", "box.stl", "--index", "index.npz"), "learn"),
+    ):
+        run = run_without_extras(site, *map(str, arguments), folder=tmp_path)
+        assert run.returncode == 1
+        assert f'pip install "gipkg[{extra}]"' in run.stderr
+
+
+def test_no_extra_is_needed_from_mesh_to_mesh(tmp_path: Path) -> None:
+    box = trimesh.creation.box().subdivide().subdivide()
+    box.export(tmp_path / "box.stl")
+    for command, source, target, *options in (
+        ("prepare", "box.stl", "closed.ply"),
+        ("parametrize", "closed.ply", "map.npz"),
+        ("image", "map.npz", "image.tiff", "--size", "32"),
+        ("reconstruct", "image.tiff", "again.off"),
+    ):
+        arguments = (command, source, "-o", target, *options)
+        run = run_without_extras(REPOSITORY, *arguments, folder=tmp_path)
+        assert run.returncode == 0, run.stderr
+    again = trimesh.load(tmp_path / "again.off")
+    assert again.is_watertight
+    assert again.volume == pytest.approx(box.volume, rel=0.05)
+
+
+def run_without_extras(
+    site: Path, *arguments: str, folder: Path
+) -> subprocess.CompletedProcess[str]:
+    """Run a command of the gipkg in `site` as if no extra were installed, in a folder."""
+    run = subprocess.run(
+        [sys.executable, "-c", WITHOUT_EXTRAS, *arguments],
+        env={**os.environ, "PYTHONPATH": str(site)},
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.stderr.startswith(str(site / "gipkg")), run.stderr
+    return run
 
 
 def test_the_citation_names_the_version() -> None:
