@@ -50,6 +50,7 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
         "wks": "gipkg.descriptors.wks:WaveKernelSignature",
     },
     "baseline": {
+        "deeppano": "gipkg.baselines.deeppano.baseline:DeepPano",
         "hks-wks": "gipkg.baselines.hks_wks:SignatureQuantiles",
         "lfd": "gipkg.baselines.light_field.baseline:LightField",
         "shape-google": "gipkg.baselines.shape_google:ShapeGoogle",

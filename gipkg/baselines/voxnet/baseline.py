@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from gipkg.api import Baseline, BaselineTags
-from gipkg.baselines.voxels import principal_frame, turned_solids
+from gipkg.baselines.upright import Upright, stand
+from gipkg.baselines.voxels import turned_solids
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,7 +51,7 @@ class VoxNet(Baseline):
     )
     tags: ClassVar[BaselineTags] = BaselineTags(scale_invariant=True)
 
-    upright: Literal["principal", "z"] = Field(
+    upright: Upright = Field(
         "principal",
         description="What stands upright: the longest principal axis of the solid, or the z axis "
         "of the database",
@@ -71,10 +72,7 @@ class VoxNet(Baseline):
         UnsupportedMesh
             No voxel is inside the mesh.
         """
-        if self.upright == "principal":
-            mesh = mesh.copy()
-            mesh.vertices = mesh.vertices @ principal_frame(mesh)
-        return turned_solids(mesh, self.rotations, SIZE, EXTENT)
+        return turned_solids(stand(mesh, self.upright), self.rotations, SIZE, EXTENT)
 
     def predict(
         self,

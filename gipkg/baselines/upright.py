@@ -1,0 +1,28 @@
+"""Which way is up, for baselines that turn a shape about its upright axis."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from gipkg.baselines.voxels import principal_frame
+
+if TYPE_CHECKING:
+    import trimesh
+
+Upright = Literal["principal", "z"]
+"""The longest principal axis of the solid, its heavier tail above, or the z axis."""
+
+
+def stand(mesh: trimesh.Trimesh, upright: Upright) -> trimesh.Trimesh:
+    """Turn a mesh so that what is to stand upright is its z axis; the mesh is not changed.
+
+    Raises
+    ------
+    UnsupportedMesh
+        The mesh encloses no positive volume, and so has no principal axes.
+    """
+    if upright == "z":
+        return mesh
+    mesh = mesh.copy()
+    mesh.vertices = mesh.vertices @ principal_frame(mesh)
+    return mesh
