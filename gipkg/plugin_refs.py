@@ -46,6 +46,7 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
         "position": "gipkg.descriptors.position:Position",
         "radial-normal": "gipkg.descriptors.normals:RadialNormal",
         "si-hks": "gipkg.descriptors.si_hks:ScaleInvariantHKS",
+        "thickness": "gipkg.descriptors.thickness:Thickness",
         "topological-mask": "gipkg.descriptors.topological_mask:TopologicalMask",
         "wks": "gipkg.descriptors.wks:WaveKernelSignature",
     },
