@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
-from gipkg.images.cuts import UPRIGHT_TURNS, standard_cuts, upright_cuts
+from gipkg.images.cuts import UPRIGHT_TURNS, random_cuts, standard_cuts, upright_cuts
 from gipkg.images.octahedron import Sampling
 
 
@@ -21,10 +21,10 @@ class ImageConfig(BaseModel):
 
     size: int = Field(default=56, ge=3, description="Pixels along a side.")
     sampling: Sampling = Field(default="equal-area", description="How the square wraps the sphere.")
-    cuts: Literal["standard", "upright"] = Field(
+    cuts: Literal["standard", "random", "upright"] = Field(
         default="standard",
-        description="The paper's 36 cuts, or those of shapes whose z axis is up: turns about the "
-        "pole above the centroid.",
+        description="The paper's 36 cuts; 36 random ones, others for each shape; or those of "
+        "shapes whose z axis is up: turns about the pole above the centroid.",
     )
     turns: int = Field(default=UPRIGHT_TURNS, ge=1, description="Number of the upright cuts.")
     azimuth: Literal["pose", "unknown"] = Field(
@@ -38,5 +38,7 @@ class ImageConfig(BaseModel):
         if self.cuts == "standard":
             return standard_cuts()
         rng = np.random.default_rng(zlib.crc32(shape_id.encode()))
+        if self.cuts == "random":
+            return random_cuts(len(standard_cuts()), rng)
         azimuth = 0.0 if self.azimuth == "pose" else rng.uniform(0, 2 * np.pi)
         return upright_cuts(spherical_map, self.turns, azimuth)

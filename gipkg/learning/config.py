@@ -11,21 +11,38 @@ open there follows the same authors' SurfNet (Sinha, Unmesh, Huang & Ramani, CVP
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, PositiveInt
 
+Block = Annotated[tuple[PositiveInt, ...], Field(min_length=1)]
+
 
 class NetworkConfig(BaseModel):
-    """The shallow network: three convolutions, one fully connected layer, softmax."""
+    """Convolutions in blocks, one fully connected layer, softmax."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    widths: tuple[PositiveInt, PositiveInt, PositiveInt] = Field(
-        default=(24, 48, 96), description="Output channels of the three convolutions."
+    blocks: tuple[Block, ...] = Field(
+        default=((24,), (48,), (96,)),
+        min_length=1,
+        description="Output channels of the convolutions; between blocks, pixels are pooled two by "
+        "two. The first convolution is of 5 x 5 pixels, two apart, the others of 3 x 3.",
+    )
+    pooling: Literal["maximum", "average"] = Field(
+        default="maximum",
+        description="What follows the last block: the maximum of two by two pixels, or the average "
+        "of all, which keeps nothing of where on the sphere it was cut.",
     )
     features: int = Field(
         default=48, ge=2, description="Width of the fully connected layer, the retrieval signature."
+    )
+    together: int = Field(
+        default=1,
+        ge=1,
+        description="1: every view of a shape is judged by itself, and their judgements are "
+        "averaged. More: the network pools so many views of a shape while it learns, and all of "
+        "them when it predicts.",
     )
     margin: int = Field(
         default=4,

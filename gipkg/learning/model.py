@@ -18,7 +18,7 @@ from gipkg.files import write_arrays
 from gipkg.learning.classifier import Classifier, train_classifier
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.device import choose_device, reproducible
-from gipkg.learning.network import ShallowNetwork
+from gipkg.learning.network import ImageNetwork
 from gipkg.learning.prediction import Prediction
 from gipkg.learning.views import Layout, Scale, fit_scale, stack
 
@@ -157,7 +157,7 @@ def train_model(
             shape.copy_(scale(shape))
     *_, padded, channels = views.shape
     classifier = train_classifier(
-        lambda classes: ShallowNetwork(network, channels, padded, classes),
+        lambda classes: ImageNetwork(network, channels, padded, classes),
         views,
         [labels[i] for i in ids],
         training=training,
@@ -190,7 +190,7 @@ def load_model(path: Path, device: str = "auto") -> Model:
             config = NetworkConfig.model_validate(header["network"])
             size, channels = header["size"], header["channels"]
             classes = tuple(header["classes"])
-            network = ShallowNetwork(config, channels, size + 2 * config.margin, len(classes))
+            network = ImageNetwork(config, channels, size + 2 * config.margin, len(classes))
             names = [name for name in arrays.files if name.startswith(WEIGHTS)]
             network.load_state_dict(
                 {name.removeprefix(WEIGHTS): torch.from_numpy(arrays[name]) for name in names}

@@ -1,4 +1,4 @@
-"""The shallow network of the paper's Section 5."""
+"""The networks on geometry images: that of the paper's Section 5, deeper ones, several views."""
 
 from __future__ import annotations
 
@@ -8,79 +8,106 @@ from torch import Tensor, nn
 from gipkg.errors import LearningError
 from gipkg.learning.config import NetworkConfig
 
-KERNELS = (5, 3, 3)
-STRIDES = (2, 1, 1)
+FIRST_KERNEL, KERNEL = 5, 3
+FIRST_STRIDE = 2
 POOL = 2
 
 
-def feature_map_size(size: int) -> int:
-    """Side of the last feature map for square inputs of side `size`: 2 for 64.
+def feature_map_size(config: NetworkConfig, size: int) -> int:
+    """Side of the last feature map for square inputs of side `size`: 2 for 64 by default.
 
     Raises
     ------
     LearningError
         Nothing is left of so small an image.
     """
-    side = size
-    for kernel, stride in zip(KERNELS, STRIDES, strict=True):
-        side = ((side - kernel) // stride + 1) // POOL
-    if side < 1:
-        raise LearningError(
-            f"images of {size} pixels a side, padding included, are too small for the network: "
-            "use larger images or a wider margin"
-        )
+    side, kernel, stride = size, FIRST_KERNEL, FIRST_STRIDE
+    for number, block in enumerate(config.blocks):
+        for _ in block:
+            side = (side - kernel) // stride + 1
+            kernel, stride = KERNEL, 1
+        if _ends_in_maximum(config, number):
+            side //= POOL
+        if side < 1:
+            raise LearningError(
+                f"images of {size} pixels a side, padding included, are too small for the "
+                "network: use larger images, a wider margin or fewer blocks"
+            )
     return side
 
 
+def _ends_in_maximum(config: NetworkConfig, block: int) -> bool:
+    return config.pooling == "maximum" or block < len(config.blocks) - 1
+
+
 class ViewClassifier(nn.Module):
-    """Views (B, C, H, W) to class scores before the softmax (B, k) and signatures (B, features).
+    """Views (B, C, H, W) to class scores before the softmax and signatures (B, features).
 
     Attributes
     ----------
     classifier : nn.Linear
         The last layer, from features to k scores.
+    together : int
+        1: every view is judged by itself. More: in training, as many consecutive views are of
+        one shape and give one row, (B / together, k); in evaluation, all views given are.
     """
 
     classifier: nn.Linear
+    together: int = 1
 
 
-class ShallowNetwork(ViewClassifier):
-    """Three unpadded convolutions with maximum pooling, a fully connected layer, class scores.
+class ImageNetwork(ViewClassifier):
+    """Unpadded convolutions with pooling, a fully connected layer, class scores.
 
     Parameters
     ----------
     config : NetworkConfig
     channels, size : int
-        The input is (B, channels, size, size).
+        A view is (channels, size, size).
     classes : int
         Number of classes k.
     """
 
     def __init__(self, config: NetworkConfig, channels: int, size: int, classes: int) -> None:
         super().__init__()
-        layers: list[nn.Module] = []
-        inputs = channels
-        for width, kernel, stride in zip(config.widths, KERNELS, STRIDES, strict=True):
-            layers += [
-                nn.Conv2d(inputs, width, kernel, stride, bias=not config.batch_normalisation),
-                *([nn.BatchNorm2d(width)] if config.batch_normalisation else []),
-                nn.ReLU(),
-                nn.MaxPool2d(POOL),
-            ]
-            inputs = width
-        flat = inputs * feature_map_size(size) ** 2
+        self.together = config.together
+        normalised, side = config.batch_normalisation, feature_map_size(config, size)
+        pixels = 1 if config.pooling == "average" else side**2
+        self.convolutions = nn.Sequential(*_convolutions(config, channels), nn.Flatten())
         self.signature = nn.Sequential(
-            *layers,
-            nn.Flatten(),
             nn.Dropout(config.dropout),
-            nn.Linear(flat, config.features, bias=not config.batch_normalisation),
-            *([nn.BatchNorm1d(config.features)] if config.batch_normalisation else []),
+            nn.Linear(pixels * config.blocks[-1][-1], config.features, bias=not normalised),
+            *([nn.BatchNorm1d(config.features)] if normalised else []),
             nn.ReLU(),
         )
         self.classifier = nn.Linear(config.features, classes)
         self.to(memory_format=torch.channels_last)  # type: ignore[call-overload]  # not annotated
 
     def forward(self, images: Tensor) -> tuple[Tensor, Tensor]:
-        """Return the class scores before the softmax (B, k) and the signatures (B, features)."""
-        signatures = self.signature(images)
+        """Return the class scores before the softmax and the signatures, a row a view or shape.
+
+        What the convolutions find in views of a shape is pooled by its maximum, as Su, Maji,
+        Kalogerakis & Learned-Miller do ("Multi-view Convolutional Neural Networks", ICCV 2015).
+        """
+        found = self.convolutions(images)
+        if self.together > 1:
+            views = self.together if self.training else len(images)
+            found = found.unflatten(0, (-1, views)).amax(1)
+        signatures = self.signature(found)
         return self.classifier(signatures), signatures
+
+
+def _convolutions(config: NetworkConfig, channels: int) -> list[nn.Module]:
+    layers: list[nn.Module] = []
+    inputs, kernel, stride = channels, FIRST_KERNEL, FIRST_STRIDE
+    for number, block in enumerate(config.blocks):
+        for width in block:
+            layers += [
+                nn.Conv2d(inputs, width, kernel, stride, bias=not config.batch_normalisation),
+                *([nn.BatchNorm2d(width)] if config.batch_normalisation else []),
+                nn.ReLU(),
+            ]
+            inputs, kernel, stride = width, KERNEL, 1
+        last = nn.MaxPool2d(POOL) if _ends_in_maximum(config, number) else nn.AdaptiveAvgPool2d(1)
+        layers.append(last)
+    return layers

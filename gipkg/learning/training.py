@@ -23,6 +23,7 @@ from gipkg.errors import LearningError
 from gipkg.learning.checkpoint import Checkpoint, fingerprint
 from gipkg.learning.config import TrainingConfig
 from gipkg.learning.device import computes_in_bfloat16
+from gipkg.learning.network import ViewClassifier
 from gipkg.progress import progress
 
 MOMENTUM = 0.9
@@ -44,18 +45,32 @@ def learning_rate(config: TrainingConfig, done: float) -> float:
     return config.learning_rate * 0.5 * (1 + math.cos(math.pi * (done - WARM_UP) / (1 - WARM_UP)))
 
 
-def batches(views: int, batch_size: int, seed: int, start: int) -> Iterator[NDArray[np.int64]]:
-    """Yield the views of every step from step `start` on: random permutations, end to end."""
+def batches(samples: int, batch_size: int, seed: int, start: int) -> Iterator[NDArray[np.int64]]:
+    """Yield the samples of every step from step `start` on: random permutations, end to end."""
 
     @lru_cache(maxsize=2)
     def permutation(epoch: int) -> NDArray[np.int64]:
-        return np.random.default_rng([seed, epoch]).permutation(views)
+        return np.random.default_rng([seed, epoch]).permutation(samples)
 
     position = start * batch_size
     while True:
-        epochs, places = np.divmod(np.arange(position, position + batch_size), views)
+        epochs, places = np.divmod(np.arange(position, position + batch_size), samples)
         yield np.concatenate([permutation(e)[places[epochs == e]] for e in np.unique(epochs)])
         position += batch_size
+
+
+def views_of(
+    samples: NDArray[np.int64], views: int, together: int, rng: np.random.Generator
+) -> NDArray[np.int64]:
+    """Return the views (N, together) of N samples, `views` being those of a shape.
+
+    A sample is one view, or as many random ones of a shape; a shape makes views / together.
+    """
+    if together == 1:
+        return samples[:, None]
+    shapes = samples // (views // together)
+    drawn = rng.permuted(np.tile(np.arange(views), (len(samples), 1)), axis=1)[:, :together]
+    return shapes[:, None] * views + drawn
 
 
 def make_optimiser(network: nn.Module, config: TrainingConfig) -> Optimizer:
@@ -68,7 +83,7 @@ def make_optimiser(network: nn.Module, config: TrainingConfig) -> Optimizer:
 
 
 def train(
-    network: nn.Module,
+    network: ViewClassifier,
     views: Tensor,
     classes: Tensor,
     config: TrainingConfig,
@@ -79,8 +94,7 @@ def train(
 
     Parameters
     ----------
-    network : nn.Module
-        Views (B, C, H, W) to scores (B, k) and signatures.
+    network : ViewClassifier
     views : (n, V, H, W, C) tensor
         V views of each of n shapes, in main memory.
     classes : (n,) int64 tensor
@@ -94,10 +108,15 @@ def train(
     Raises
     ------
     LearningError
-        The loss left the finite numbers.
+        There are fewer views of a shape than the network pools, or the training diverged.
     DamagedFileError
         The checkpoint cannot be read.
     """
+    if views.shape[1] < network.together:
+        raise LearningError(
+            f"the network pools {network.together} views of a shape, there are {views.shape[1]}: "
+            "lower together or make more views"
+        )
     device = next(network.parameters()).device
     network.train()
     optimiser = make_optimiser(network, config)
@@ -110,22 +129,26 @@ def train(
         store = Checkpoint(checkpoint, fingerprint(description, classes, views, *weights))
         start = store.restore(network, optimiser, device)
 
-    flat = views.flatten(0, 1)
-    classes = classes.repeat_interleave(views.shape[1])
+    flat, (shapes, of_a_shape) = views.flatten(0, 1), views.shape[:2]
+    together = network.together
     steps = number_of_steps(config, len(flat))
-    order = batches(len(flat), config.batch_size, seed, start)
+    # Batch normalisation needs two rows.
+    batch = max(config.batch_size // together, 2)
+    order = batches(shapes * (of_a_shape // together), batch, seed, start)
     saved = time.monotonic()
     for step in progress(range(start, steps), "training", done=start):
-        index = torch.from_numpy(next(order))
-        images = flat[index].permute(0, 3, 1, 2)
+        random = np.random.SeedSequence([seed, step])
+        shown = views_of(next(order), of_a_shape, together, np.random.default_rng(random))
+        targets = classes[shown[:, 0] // of_a_shape]
+        images = flat[shown.ravel()].permute(0, 3, 1, 2)
         if config.mirror:
             images[::2] = images[::2].transpose(2, 3).clone()
         for group in optimiser.param_groups:
             group["lr"] = learning_rate(config, (step + 0.5) / steps)
-        torch.manual_seed(int(np.random.SeedSequence([seed, step]).generate_state(1, np.uint64)[0]))
+        torch.manual_seed(int(random.generate_state(1, np.uint64)[0]))
         with torch.autocast(device.type, torch.bfloat16, enabled=bfloat16):
             scores, _ = network(images.to(device))
-            loss = criterion(scores, classes[index].to(device))
+            loss = criterion(scores, targets.to(device))
         _descend(optimiser, loss, f"step {step} of {steps}")
         if store and time.monotonic() - saved >= SECONDS_BETWEEN_CHECKPOINTS:
             store.save(step + 1, network, optimiser)

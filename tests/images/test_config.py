@@ -16,6 +16,14 @@ def test_the_paper_s_cuts_are_the_default(sphere_map) -> None:
     assert_array_equal(cuts.as_quat(), standard_cuts().as_quat())
 
 
+def test_random_cuts_are_as_many_and_others_for_each_shape(sphere_map) -> None:
+    config = ImageConfig(cuts="random")
+    first, again, other = (config.choose(sphere_map, name).as_quat() for name in "aab")
+    assert first.shape == standard_cuts().as_quat().shape
+    assert_array_equal(first, again)
+    assert np.abs(first - other).min() > 0
+
+
 def test_the_pose_of_an_upright_shape_is_taken_or_forgotten(star_map) -> None:
     spherical_map = star_map(1, 60)
     posed = ImageConfig(cuts="upright", azimuth="pose", turns=4).choose(spherical_map, "a")

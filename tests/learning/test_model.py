@@ -20,7 +20,7 @@ from tests.learning.synthetic import synthetic_images
 IMAGES, LABELS = synthetic_images(18)
 IDS = tuple(IMAGES)
 TRAIN, TEST = IDS[:9], IDS[9:]
-SMALL = NetworkConfig(widths=(6, 8, 10), dropout=0.2)
+SMALL = NetworkConfig(blocks=((6,), (8,), (10,)), dropout=0.2)
 SHORT = TrainingConfig(epochs=8, minimum_steps=1, batch_size=12)
 LONGER = TrainingConfig(epochs=15, minimum_steps=1, batch_size=12)
 
@@ -39,6 +39,14 @@ def run(images: Any = IMAGES, **changes: Any) -> Prediction:
 @pytest.fixture(scope="module")
 def undisturbed() -> Prediction:
     return run()
+
+
+TOGETHER = SMALL.model_copy(update={"together": 2, "pooling": "average"})
+
+
+@pytest.fixture(scope="module")
+def undisturbed_together() -> Prediction:
+    return run(network=TOGETHER)
 
 
 def accuracy(found: Prediction) -> float:
@@ -86,6 +94,18 @@ def test_the_test_part_changes_nothing_but_its_own_predictions(undisturbed: Pred
     assert (changed.embeddings[0] != undisturbed.embeddings[0]).any()
 
 
+def test_views_pooled_in_the_network_are_in_no_order(undisturbed_together: Prediction) -> None:
+    found = undisturbed_together
+    assert accuracy(found) == 1.0
+    turned = {i: np.ascontiguousarray(IMAGES[i][[2, 0, 3, 1]]) for i in TEST}
+    assert_equal(trained(network=TOGETHER).predict(turned, TEST), found)
+
+
+def test_views_that_are_too_few_to_be_pooled_are_named() -> None:
+    with pytest.raises(LearningError, match="pools 9 views of a shape, there are 4"):
+        trained(network=SMALL.model_copy(update={"together": 9}))
+
+
 def test_views_are_pooled_by_their_mean(undisturbed: Prediction) -> None:
     # Each view predicted alone, as if it were a shape of its own.
     views = range(len(IMAGES[TEST[0]]))
@@ -121,10 +141,23 @@ class Killed(Exception):
     pass
 
 
-@pytest.mark.parametrize("at", [1, 7, 23])
+@pytest.mark.parametrize(
+    ("at", "network", "fixture"),
+    [
+        (1, SMALL, "undisturbed"),
+        (23, SMALL, "undisturbed"),
+        (7, TOGETHER, "undisturbed_together"),
+    ],
+)
 def test_a_killed_training_ends_as_an_undisturbed_one(
-    at: int, undisturbed: Prediction, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    at: int,
+    network: NetworkConfig,
+    fixture: str,
+    request: pytest.FixtureRequest,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    undisturbed = request.getfixturevalue(fixture)
     monkeypatch.setattr(loop, "SECONDS_BETWEEN_CHECKPOINTS", 0.0)
     path = tmp_path / "work" / "state.pt"
     save = checkpoints.Checkpoint.save
@@ -137,14 +170,14 @@ def test_a_killed_training_ends_as_an_undisturbed_one(
     with monkeypatch.context() as patch:
         patch.setattr(checkpoints.Checkpoint, "save", killed)
         with pytest.raises(Killed):
-            run(checkpoint=path)
+            run(checkpoint=path, network=network)
     steps: list[int] = []
     monkeypatch.setattr(
         checkpoints.Checkpoint,
         "save",
         lambda self, step, *state: (steps.append(step), save(self, step, *state)),
     )
-    assert_equal(run(checkpoint=path), undisturbed)
+    assert_equal(run(checkpoint=path, network=network), undisturbed)
     assert steps[0] == at + 1
     assert [file.name for file in path.parent.iterdir()] == ["state.pt"]
 

@@ -6,27 +6,37 @@ import numpy as np
 import pytest
 
 from gipkg.learning.config import TrainingConfig
-from gipkg.learning.training import batches, learning_rate, number_of_steps
+from gipkg.learning.training import batches, learning_rate, number_of_steps, views_of
 
 
-def test_every_epoch_shows_every_view_once_in_another_order() -> None:
-    views, size = 30, 8
-    shown = np.concatenate(list(islice(batches(views, size, seed=1, start=0), 15)))
-    epochs = shown.reshape(4, views)
-    np.testing.assert_array_equal(np.sort(epochs, axis=1), np.tile(np.arange(views), (4, 1)))
+def test_every_epoch_shows_every_sample_once_in_another_order() -> None:
+    samples, size = 30, 8
+    shown = np.concatenate(list(islice(batches(samples, size, seed=1, start=0), 15)))
+    epochs = shown.reshape(4, samples)
+    np.testing.assert_array_equal(np.sort(epochs, axis=1), np.tile(np.arange(samples), (4, 1)))
     assert len({tuple(epoch) for epoch in epochs}) == 4
 
 
-@pytest.mark.parametrize(("views", "start"), [(30, 7), (5, 3), (1, 2)])
-def test_a_later_start_continues_the_same_order(views: int, start: int) -> None:
-    whole = list(islice(batches(views, 8, seed=1, start=0), start + 5))
-    later = list(islice(batches(views, 8, seed=1, start=start), 5))
+@pytest.mark.parametrize(("samples", "start"), [(30, 7), (5, 3), (1, 2)])
+def test_a_later_start_continues_the_same_order(samples: int, start: int) -> None:
+    whole = list(islice(batches(samples, 8, seed=1, start=0), start + 5))
+    later = list(islice(batches(samples, 8, seed=1, start=start), 5))
     np.testing.assert_array_equal(later, whole[start:])
 
 
 def test_the_order_depends_on_the_seed() -> None:
     first, second = (next(batches(100, 64, seed, start=0)) for seed in (0, 1))
     assert (first != second).any()
+
+
+def test_a_sample_of_several_views_is_of_one_shape() -> None:
+    samples = np.arange(10)  # of five shapes with nine views each, two samples a shape
+    shown = views_of(samples, views=9, together=4, rng=np.random.default_rng(0))
+    np.testing.assert_array_equal(shown // 9, np.tile(samples[:, None] // 2, 4))
+    assert all(len(set(views)) == 4 for views in shown)
+    assert len({tuple(views % 9) for views in shown}) == 10
+    alone = views_of(samples, views=9, together=1, rng=np.random.default_rng(0))
+    np.testing.assert_array_equal(alone, samples[:, None])
 
 
 def test_training_lasts_whole_epochs_but_not_too_few_steps() -> None:
