@@ -35,6 +35,8 @@ def recipe(wildcards):
         return {key: spec[key] for key in ("plugin", "target", "parameters")}
 
     return {
+        "surface": surface_options(wildcards),
+        "up": dataset_plugin(wildcards.database).upright,
         "parametrizer": plugin(PARAMETRIZERS[wildcards.parametrizer]),
         "descriptors": [plugin(DESCRIPTORS[one]) for one in wildcards.descriptors.split("+")],
         "eigenpairs": config["eigenpairs"],
