@@ -6,7 +6,10 @@ import os
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
 from hypothesis import settings
+
+from tests.workflow.workdir import Workdir
 
 settings.register_profile("gipkg", deadline=None, print_blob=True)
 settings.load_profile("gipkg")
@@ -29,3 +32,18 @@ def data_root() -> Path:
     if root is None or not root.is_dir():
         pytest.skip("no real databases: set GIPKG_DATA_ROOT, or put them under data/")
     return root
+
+
+@pytest.fixture(scope="session")
+def smoke(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workdir:
+    """Folder of an undisturbed smoke run, one for all workers; not to be changed."""
+    base = tmp_path_factory.getbasetemp()
+    root = base if worker_id == "master" else base.parent
+    workdir, finished = Workdir(root / "smoke-run"), root / "smoke-run.finished"
+    with FileLock(root / "smoke-run.lock"):
+        if not finished.exists():
+            workdir.path.mkdir(exist_ok=True)
+            done = workdir.run()
+            assert done.returncode == 0, done.stdout
+            finished.touch()
+    return workdir
