@@ -29,10 +29,11 @@ class NetworkConfig(BaseModel):
         description="Output channels of the convolutions; between blocks, pixels are pooled two by "
         "two. The first convolution is of 5 x 5 pixels, two apart, the others of 3 x 3.",
     )
-    pooling: Literal["maximum", "average"] = Field(
-        default="maximum",
-        description="What follows the last block: the maximum of two by two pixels, or the average "
-        "of all, which keeps nothing of where on the sphere it was cut.",
+    pooling: Literal["local", "average", "average+maximum"] = Field(
+        default="local",
+        description="What follows the last block: the maximum of two by two pixels, as between "
+        "blocks; or the average of all pixels, or their average and their maximum, which keep "
+        "nothing of where on the sphere something is.",
     )
     features: int = Field(
         default=48, ge=2, description="Width of the fully connected layer, the retrieval signature."

@@ -26,7 +26,7 @@ def feature_map_size(config: NetworkConfig, size: int) -> int:
         for _ in block:
             side = (side - kernel) // stride + 1
             kernel, stride = KERNEL, 1
-        if _ends_in_maximum(config, number):
+        if _is_pooled_locally(config, number):
             side //= POOL
         if side < 1:
             raise LearningError(
@@ -36,8 +36,8 @@ def feature_map_size(config: NetworkConfig, size: int) -> int:
     return side
 
 
-def _ends_in_maximum(config: NetworkConfig, block: int) -> bool:
-    return config.pooling == "maximum" or block < len(config.blocks) - 1
+def _is_pooled_locally(config: NetworkConfig, block: int) -> bool:
+    return config.pooling == "local" or block < len(config.blocks) - 1
 
 
 class ViewClassifier(nn.Module):
@@ -72,11 +72,11 @@ class ImageNetwork(ViewClassifier):
         super().__init__()
         self.together = config.together
         normalised, side = config.batch_normalisation, feature_map_size(config, size)
-        pixels = 1 if config.pooling == "average" else side**2
+        found = {"local": side**2, "average": 1, "average+maximum": 2}[config.pooling]
         self.convolutions = nn.Sequential(*_convolutions(config, channels), nn.Flatten())
         self.signature = nn.Sequential(
             nn.Dropout(config.dropout),
-            nn.Linear(pixels * config.blocks[-1][-1], config.features, bias=not normalised),
+            nn.Linear(found * config.blocks[-1][-1], config.features, bias=not normalised),
             *([nn.BatchNorm1d(config.features)] if normalised else []),
             nn.ReLU(),
         )
@@ -97,6 +97,19 @@ class ImageNetwork(ViewClassifier):
         return self.classifier(signatures), signatures
 
 
+class GlobalPooling(nn.Module):
+    """The average over all pixels, (B, C), and after it the maximum if wanted, (B, 2 C)."""
+
+    def __init__(self, maximum: bool) -> None:
+        super().__init__()
+        self.maximum = maximum
+
+    def forward(self, images: Tensor) -> Tensor:
+        """Pool images, or what convolutions made of them."""
+        average = images.mean((2, 3))
+        return torch.cat([average, images.amax((2, 3))], 1) if self.maximum else average
+
+
 def _convolutions(config: NetworkConfig, channels: int) -> list[nn.Module]:
     layers: list[nn.Module] = []
     inputs, kernel, stride = channels, FIRST_KERNEL, FIRST_STRIDE
@@ -108,6 +121,8 @@ def _convolutions(config: NetworkConfig, channels: int) -> list[nn.Module]:
                 nn.ReLU(),
             ]
             inputs, kernel, stride = width, KERNEL, 1
-        last = nn.MaxPool2d(POOL) if _ends_in_maximum(config, number) else nn.AdaptiveAvgPool2d(1)
-        layers.append(last)
+        if _is_pooled_locally(config, number):
+            layers.append(nn.MaxPool2d(POOL))
+        else:
+            layers.append(GlobalPooling(maximum=config.pooling == "average+maximum"))
     return layers

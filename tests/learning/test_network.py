@@ -28,24 +28,30 @@ def test_batch_normalisation_is_optional(normalise: bool) -> None:
 DEEP = NetworkConfig(blocks=((8, 8), (16, 16), (32, 32)), pooling="average", features=96)
 
 
-@pytest.mark.parametrize("config", [NetworkConfig(), DEEP])
 @pytest.mark.parametrize("size", [63, 64, 75])
-def test_the_size_of_the_feature_map_is_what_the_layers_leave(
-    config: NetworkConfig, size: int
-) -> None:
-    network = ImageNetwork(config, channels=3, size=size, classes=4)
-    images, width = torch.rand(2, 3, size, size), config.blocks[-1][-1]
-    side = feature_map_size(config, size)
-    before_pooling = network.convolutions[:-2](images) if config is DEEP else None
-    if before_pooling is not None:
-        assert before_pooling.shape == (2, width, side, side)
-        expected = before_pooling.mean((2, 3))
-        torch.testing.assert_close(network.convolutions(images), expected)
-    else:
-        assert network.convolutions(images).shape == (2, width * side**2)
-    scores, signatures = network(images)
-    assert (scores.shape, signatures.shape) == ((2, 4), (2, config.features))
+def test_the_size_of_the_feature_map_is_what_the_layers_leave(size: int) -> None:
+    images = torch.rand(2, 3, size, size)
+    side = feature_map_size(NetworkConfig(), size)
+    found = ImageNetwork(NetworkConfig(), 3, size, classes=4).convolutions(images)
+    assert found.shape == (2, 96 * side**2)
+    side = feature_map_size(DEEP, size)
+    assert ImageNetwork(DEEP, 3, size, 4).convolutions[:-2](images).shape == (2, 32, side, side)
+
+
+@pytest.mark.parametrize("pooling", ["local", "average", "average+maximum"])
+def test_scores_and_signatures_follow_what_is_pooled(pooling: str) -> None:
+    network = ImageNetwork(DEEP.model_copy(update={"pooling": pooling}), 3, 80, classes=4)
+    scores, signatures = network(torch.rand(2, 3, 80, 80))
+    assert (scores.shape, signatures.shape) == ((2, 4), (2, 96))
     assert (signatures >= 0).all()  # after the rectifier
+    if pooling == "local":
+        return
+    last = torch.rand(2, 32, 5, 5)
+    found = network.convolutions[-2:](last)
+    torch.testing.assert_close(found[:, :32], last.mean((2, 3)))
+    assert torch.equal(found[:, 32:], last.amax((2, 3))[:, : found.shape[1] - 32])
+    turned = network.convolutions[-2:](last.rot90(1, (2, 3)))
+    torch.testing.assert_close(turned, found)
 
 
 def test_views_pooled_together_are_of_one_shape_and_in_no_order() -> None:
