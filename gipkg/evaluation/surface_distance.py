@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 
-from gipkg.surfaces.validation import face_areas
+from gipkg.surfaces.distance import sampled_distances
+from gipkg.surfaces.triangles import Triangles
 
 SAMPLES = 50_000
 """Random points on each surface, besides its vertices."""
@@ -54,38 +54,15 @@ def surface_distance(
     SurfaceDistance
     """
     rng = np.random.default_rng(seed)
-    ways = [_distances(one, two, samples, rng) for one, two in ((mesh, other), (other, mesh))]
+    one, two = _triangles(mesh), _triangles(other)
+    ways = [sampled_distances(*pair, samples, rng) for pair in ((one, two), (two, one))]
     diagonal = np.linalg.norm(np.ptp(mesh.vertices, axis=0))
     return SurfaceDistance(
-        hausdorff=float(max(largest for largest, _ in ways) / diagonal),
-        mean=float(np.mean([mean for _, mean in ways]) / diagonal),
+        hausdorff=float(max(way.max() for way in ways) / diagonal),
+        mean=float(np.mean([way[:samples].mean() for way in ways]) / diagonal),
     )
 
 
-def _distances(
-    source: trimesh.Trimesh, target: trimesh.Trimesh, samples: int, rng: np.random.Generator
-) -> tuple[float, float]:
-    """Return the largest distance of all samples and the mean one of the random samples."""
-    import igl
-
-    vertices, faces = np.asarray(source.vertices), np.asarray(source.faces, dtype=np.int64)
-    points = np.vstack((_random_points(vertices, faces, samples, rng), vertices))
-    squared, _, _ = igl.point_mesh_squared_distance(
-        points, np.asarray(target.vertices), np.asarray(target.faces, dtype=np.int64)
-    )
-    distance = np.sqrt(squared)
-    return float(distance.max()), float(distance[:samples].mean())
-
-
-def _random_points(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int64],
-    count: int,
-    rng: np.random.Generator,
-) -> NDArray[np.float64]:
-    """Draw (count, 3) points on a surface, uniformly by area."""
-    areas = face_areas(vertices, faces)
-    chosen = rng.choice(len(faces), count, p=areas / areas.sum())
-    weights = rng.dirichlet(np.ones(3), count)  # uniform over a triangle
-    points: NDArray[np.float64] = np.einsum("nk,nkd->nd", weights, vertices[faces[chosen]])
-    return points
+def _triangles(mesh: trimesh.Trimesh) -> Triangles:
+    vertices = np.asarray(mesh.vertices, np.float64)
+    return Triangles(vertices, np.asarray(mesh.faces, np.int64), np.ones(len(vertices), bool))

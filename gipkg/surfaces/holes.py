@@ -48,23 +48,30 @@ def fill_holes(mesh: Triangles, largest: float) -> tuple[Triangles, int]:
         A hole is larger than that.
     """
     loops = border_loops(mesh.faces)
+    area = float(face_areas(mesh.vertices, mesh.faces).sum())
+    vertices, faces = [mesh.vertices[:0]], [mesh.faces[:0]]
+    size = len(mesh.vertices)
     for loop in loops:
-        closed = close_loop(mesh, loop)
-        area = face_areas(closed.vertices, closed.faces)
-        share = area[len(mesh.faces) :].sum() / area.sum()
-        if share > largest:
+        disc = cap(mesh.vertices[loop])
+        points = np.concatenate((mesh.vertices[loop], disc.vertices))
+        added = float(face_areas(points, disc.faces).sum())
+        area += added
+        if added > largest * area:
             raise UnsupportedMesh(
-                f"a hole of {len(loop)} edges would be closed by a cap of {share:.0%} of the "
-                f"whole surface, more than {largest:.0%}: this is rather an open sheet than the "
-                "surface of a solid. largest_hole=1 closes it all the same"
+                f"a hole of {len(loop)} edges would be closed by a cap of {added / area:.0%} of "
+                f"the whole surface, more than {largest:.0%}: this is rather an open sheet than "
+                "the surface of a solid. largest_hole=1 closes it all the same"
             )
-        mesh = closed
-    return mesh, len(loops)
+        number = np.concatenate((loop, size + np.arange(len(disc.vertices))))
+        vertices.append(disc.vertices)
+        faces.append(number[disc.faces])
+        size += len(disc.vertices)
+    if not loops:
+        return mesh, 0
+    return mesh.append(np.concatenate(vertices), np.concatenate(faces)), len(loops)
 
 
-def close_loop(
-    mesh: Triangles, loop: NDArray[np.int64], shift: NDArray[np.float64] | None = None
-) -> Triangles:
+def close_loop(mesh: Triangles, loop: NDArray[np.int64], shift: NDArray[np.float64]) -> Triangles:
     """Cap one border.
 
     Parameters
@@ -72,12 +79,10 @@ def close_loop(
     mesh : Triangles
     loop : (n,) int array
         As `border_loops` lists it.
-    shift : (3,) float64 array, optional
+    shift : (3,) float64 array
         How far to bulge the cap's middle out of the harmonic position.
     """
     disc = cap(mesh.vertices[loop])
-    added = disc.vertices
-    if shift is not None:
-        added = added + (1 - disc.radius[:, None] ** 2) * shift
+    added = disc.vertices + (1 - disc.radius[:, None] ** 2) * shift
     number = np.concatenate((loop, len(mesh.vertices) + np.arange(len(added))))
     return mesh.append(added, number[disc.faces])

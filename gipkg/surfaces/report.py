@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from gipkg.surfaces import halfedges
+from gipkg.surfaces.distance import Deviation
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,14 +77,28 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Counts before and after, and the steps that changed something, in order.
+    """What was done, and what came of it.
 
-    A surface that was left as it is has no steps.
+    Attributes
+    ----------
+    before : Counts or VolumeCounts
+    after : Counts
+    steps : tuple of Step
+        Those that changed something, in order. A surface that was left as it is has none.
+    method : {"none", "repair", "volume"}
+        The way that the steps are of.
+    reason : str
+        Why a mesh was not repaired but went through the volume.
+    deviation : Deviation or None
+        From the mesh that was given; None where that is the surface, or was a volume.
     """
 
     before: Counts | VolumeCounts
     after: Counts
     steps: tuple[Step, ...] = field(default_factory=tuple)
+    method: Literal["none", "repair", "volume"] = "none"
+    reason: str = ""
+    deviation: Deviation | None = None
 
     @property
     def changed(self) -> bool:

@@ -129,8 +129,8 @@ def test_losing_most_of_the_shape_needs_consent():
         ball.apply_translation((3 * k, 0, 0))
     three = trimesh.util.concatenate(balls)
     with pytest.raises(UnsupportedMesh, match=r"3 parts has only 33%.*smallest_part=0"):
-        prepare(three)
-    assert_sound(prepare(three, smallest_part=0))
+        prepare(three, method="repair")
+    assert_sound(prepare(three, method="repair", smallest_part=0))
 
 
 def test_box_with_a_square_hole_through_it():
@@ -191,7 +191,7 @@ def test_edge_closed_by_a_sliver():
 )
 def test_what_cannot_be_repaired_says_why(mesh, fault):
     with pytest.raises(UnsupportedMesh, match=fault):
-        prepare(mesh)
+        prepare(mesh, method="repair")
 
 
 @pytest.mark.parametrize(
@@ -211,7 +211,7 @@ def test_largest_hole_may_be_allowed():
 
 def test_flat_sheet_bounds_no_solid():
     with pytest.raises(UnsupportedMesh, match="encloses no volume"):
-        prepare(bare(np.eye(3), [[0, 1, 2]]), largest_hole=1)
+        prepare(bare(np.eye(3), [[0, 1, 2]]), method="repair", largest_hole=1)
 
 
 @pytest.mark.parametrize(
@@ -230,7 +230,7 @@ def test_files_are_read_and_named(tmp_path):
     assert_sound(surface)
     moebius_strip().export(tmp_path / "strip.obj")
     with pytest.raises(UnsupportedMesh, match=r"strip\.obj: the surface has one side"):
-        prepare(str(tmp_path / "strip.obj"))
+        prepare(str(tmp_path / "strip.obj"), method="repair")
     with pytest.raises(MeshFormatError, match="no such file"):
         prepare(tmp_path / "missing.ply")
 
@@ -322,6 +322,6 @@ def test_defects_are_repaired(mesh, defects, seed):
     damaged = mesh
     for defect in defects:
         damaged = defect(damaged, random)
-    surface = prepare(damaged)
+    surface = prepare(damaged, method="repair")
     assert_sound(surface)
     assert surface.mesh.volume == pytest.approx(mesh.volume, rel=0.25)

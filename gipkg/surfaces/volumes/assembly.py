@@ -26,7 +26,11 @@ MARGIN = 2
 """Empty voxels around the solid."""
 
 BLUR = 0.7
-"""Standard deviation, in voxels, of the Gaussian that says where the surface runs."""
+"""Standard deviation, in voxels, of the Gaussian that says where the surface runs: the steps of
+solids that are all or nothing are gone, and little else is."""
+
+MOST_VOXELS = 400**3
+"""Voxels around the solid at the most: 30 bytes of memory each."""
 
 FAIRING = 10
 """Rounds of smoothing of the surface, before its vertices become fewer."""
@@ -38,6 +42,8 @@ def volume_surface(
     vertices: int = 3000,
     components: Literal["largest", "joined"] = "largest",
     smallest_part: float = 0.5,
+    blur: float = BLUR,
+    original: Solid | None = None,
 ) -> Surface:
     """Make a closed, oriented genus-0 surface of one component out of any solid.
 
@@ -58,39 +64,47 @@ def volume_surface(
         Voxels are connected as in :mod:`gipkg.surfaces.volumes.lattice`.
     smallest_part : float
         Least share of the voxels that the largest component must have, if it alone is kept.
+    blur : float
+        Standard deviation, in voxels, of the Gaussian that the values pass first. None is needed
+        where they are distances.
+    original : (X, Y, Z) bool array, optional
+        Voxels whose border is the original surface, as far as they are solid; all, by default.
 
     Returns
     -------
     Surface
         In the volume's coordinates. The mask is False at the vertices of membranes and
-        strands; the report counts what was found and done.
+        strands, and of the border of voxels that are not original; the report counts what was
+        found and done.
 
     Raises
     ------
     UnsupportedMesh
         The volume is no solid, or its largest component is too small a share of it.
     """
-    values, corner = _crop(volume)
+    values, cut = _crop(volume)
     solid = values > volume.level
     kept, before, steps = _one_component(solid, components, smallest_part)
     filled = fill_cavities(kept)
     hull = contractible_hull(filled)
     steps += _closing_steps(kept, filled, hull)
-    dense, faces, owner = lattice_surface(hull, _depth(values, solid, hull, volume.level))
-    original = filled.ravel()[owner]
-    result = decimate(Triangles(fair(dense, faces, FAIRING), faces, original), vertices)
+    dense, faces, owner = lattice_surface(hull, _depth(values, solid, hull, volume.level, blur))
+    kept = filled if original is None else filled & np.pad(original, MARGIN)[cut]
+    smooth = Triangles(fair(dense, faces, FAIRING), faces, kept.ravel()[owner])
+    result = decimate(smooth, vertices)
+    corner = np.array([side.start for side in cut]) - MARGIN
     points = (result.vertices + corner) * volume.spacing + volume.origin
     mesh = trimesh.Trimesh(points, result.faces, process=False)
     if mesh.volume < 0:
         # A rugged solid reduced to a handful of vertices can be turned inside out by it.
         mesh = trimesh.Trimesh(points, result.faces[:, ::-1], process=False)
     check_genus_zero(mesh)
-    report = Report(before, count(points, mesh.faces), tuple(steps))
+    report = Report(before, count(points, mesh.faces), tuple(steps), "volume")
     return Surface(mesh, result.original, report)
 
 
-def _crop(volume: Volume) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
-    """Cut out the solid with a margin; return also the first voxel of the cut."""
+def _crop(volume: Volume) -> tuple[NDArray[np.float32], tuple[slice, ...]]:
+    """Cut out the solid with a margin; return also where in the array widened by it."""
     values = np.asarray(volume.values, np.float32)
     if values.ndim != 3:
         raise UnsupportedMesh(f"the volume has {values.ndim} axes; it takes three")
@@ -105,7 +119,13 @@ def _crop(volume: Volume) -> tuple[NDArray[np.float32], NDArray[np.int64]]:
     padded = np.pad(values, MARGIN, constant_values=empty)
     box = ndimage.find_objects(np.pad(solid, MARGIN).view(np.uint8))[0]
     cut = tuple(slice(side.start - MARGIN, side.stop + MARGIN) for side in box)
-    return padded[cut], np.array([side.start for side in cut]) - MARGIN
+    cropped = padded[cut]
+    if cropped.size > MOST_VOXELS:
+        raise UnsupportedMesh(
+            f"the volume has {cropped.size} voxels around its solid, more than {MOST_VOXELS}; "
+            "take every second one along each axis"
+        )
+    return cropped, cut
 
 
 def _one_component(
@@ -143,9 +163,9 @@ def _closing_steps(kept: Solid, filled: Solid, hull: Solid) -> list[Step]:
 
 
 def _depth(
-    values: NDArray[np.float32], solid: Solid, hull: Solid, level: float
+    values: NDArray[np.float32], solid: Solid, hull: Solid, level: float, blur: float
 ) -> NDArray[np.float32]:
     """Return how far the blurred values are above the level, those of the changed voxels set."""
     changed = np.where(hull, values.max(), values.min())
-    blurred = ndimage.gaussian_filter(np.where(hull == solid, values, changed), BLUR)
+    blurred = ndimage.gaussian_filter(np.where(hull == solid, values, changed), blur)
     return blurred - np.float32(level)
