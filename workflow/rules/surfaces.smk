@@ -2,7 +2,8 @@ rule surfaces:
     input:
         "results/datasets/{database}/shapes.csv",
     output:
-        "results/surfaces/{database}/{shard}.npz",
+        surfaces="results/surfaces/{database}/{shard}.npz",
+        seconds="results/benchmarks/surfaces/{database}/{shard}.csv",
     log:
         "results/logs/surfaces/{database}/{shard}.log",
     benchmark:
