@@ -14,6 +14,7 @@ include: "workflow/rules/images.smk"
 include: "workflow/rules/learn.smk"
 include: "workflow/rules/baselines.smk"
 include: "workflow/rules/evaluate.smk"
+include: "workflow/rules/beyond.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/figures.smk"
 
@@ -25,6 +26,7 @@ rule paper:
             "results/{figure}.png",
             figure=[name for name, table in CURVES.items() if TABLES[table]["databases"]],
         ),
+        "results/table1_beyond.csv",
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",
         expand("results/figure{number}.png", number=range(1, 8)),

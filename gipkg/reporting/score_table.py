@@ -124,7 +124,7 @@ def as_csv(rows: Sequence[Row], columns: Sequence[str]) -> tuple[list[str], list
             figure
             for column in columns
             for metric in METRICS
-            for figure in _mean_and_std(row.cells[column], metric)
+            for figure in mean_and_std(row.cells[column], metric)
         ]
         for row in rows
     ]
@@ -156,15 +156,17 @@ def as_markdown(
         "Accuracy in % / mean average precision: mean ± standard deviation over random splits.",
         "The paper's own figures stand below ours, in italics.",
         "",
-        _line(["", *columns]),
-        _line(["---"] * (len(columns) + 1)),
+        markdown_line(["", *columns]),
+        markdown_line(["---"] * (len(columns) + 1)),
     ]
     for row in rows:
-        lines.append(_line([f"**{row.split}**", *(_measured(row.cells[name]) for name in columns)]))
+        lines.append(
+            markdown_line([f"**{row.split}**", *(measured(row.cells[name]) for name in columns)])
+        )
         printed = [reference.figures.get((row.split, name or "")) for name in columns.values()]
         if any(printed):
             cells = [f"*{_as_printed(figures)}*" if figures else _ABSENT for figures in printed]
-            lines.append(_line(["*in the paper*", *cells]))
+            lines.append(markdown_line(["*in the paper*", *cells]))
     lines += ["", "## Notes", "", *(f"- {note}" for note in notes)]
     lines += ["", "## The paper's table in full", "", *_printed(reference)]
     return "\n".join(lines) + "\n"
@@ -174,10 +176,12 @@ def _printed(reference: Reference) -> list[str]:
     splits = list(dict.fromkeys(split for split, _ in reference.figures))
     cells = {key: _as_printed(figures) for key, figures in reference.figures.items()}
     return [
-        _line(["", *reference.methods]),
-        _line(["---"] * (len(reference.methods) + 1)),
+        markdown_line(["", *reference.methods]),
+        markdown_line(["---"] * (len(reference.methods) + 1)),
         *(
-            _line([split, *(cells.get((split, name), _ABSENT) for name in reference.methods)])
+            markdown_line(
+                [split, *(cells.get((split, name), _ABSENT) for name in reference.methods)]
+            )
             for split in splits
         ),
     ]
@@ -187,16 +191,19 @@ def _as_printed(figures: tuple[str, str]) -> str:
     return " / ".join(figure or _ABSENT for figure in figures)
 
 
-def _measured(cell: Cell) -> str:
-    figures = (_mean_and_std(cell, metric) for metric in METRICS)
+def measured(cell: Cell) -> str:
+    """Write a cell for readers."""
+    figures = (mean_and_std(cell, metric) for metric in METRICS)
     return " / ".join(f"{value} ± {std}" if std else value for value, std in figures)
 
 
-def _mean_and_std(cell: Cell, metric: str) -> tuple[str, str]:
+def mean_and_std(cell: Cell, metric: str) -> tuple[str, str]:
+    """Write a metric's mean and sample standard deviation, empty of a single split."""
     values, digits = getattr(cell, metric), DIGITS[metric]
     std = f"{stdev(values):.{digits}f}" if len(values) > 1 else ""
     return f"{mean(values):.{digits}f}", std
 
 
-def _line(cells: Sequence[str]) -> str:
+def markdown_line(cells: Sequence[str]) -> str:
+    """Write a line of a table."""
     return f"| {' | '.join(cells)} |"

@@ -27,6 +27,8 @@ rule classify:
         "results/logs/baselines/{database}/{baseline}/{protocol}-{seed}.log",
     benchmark:
         "results/benchmarks/baselines/{database}/{baseline}/{protocol}-{seed}.tsv"
+    wildcard_constraints:
+        database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
     params:

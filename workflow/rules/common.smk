@@ -15,6 +15,7 @@ from gipkg.images.config import ImageConfig
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.parameters import validated
 from gipkg.shards import shard_of
+from gipkg.surfaces.perturbations import PERTURBATIONS
 
 min_version("9.9")
 
@@ -190,6 +191,55 @@ def chosen_subjects():
     return {"figure1": first, **{figure: [subject] for figure in others}}
 
 
+def chosen_beyond():
+    """Return what goes beyond the paper: database, columns, seeds, splits and faulty databases."""
+    section = config["beyond"]
+    for name in section["databases"]:
+        require_defined("beyond.databases", name, "datasets")
+    at_hand = (one for one in section["databases"] if is_at_hand(one) and protocols_of(one))
+    database = next(at_hand, None)
+    if database is None:
+        raise WorkflowError(
+            "configuration, beyond.databases: none of them is at hand and has a protocol"
+        )
+    seeds = section["seeds"][: config["datasets"][database].get("splits")]
+    faults = section["robustness"]["faults"]
+    for number, fault in enumerate(faults):
+        name = fault["perturbation"]
+        if name not in PERTURBATIONS:
+            raise WorkflowError(
+                f"configuration, beyond.robustness.faults.{number}.perturbation: there is no "
+                f"{name!r}{did_you_mean(name, PERTURBATIONS)} ({', '.join(PERTURBATIONS)})"
+            )
+    return {
+        "database": database,
+        "databases": [database],
+        "columns": chosen_columns("beyond"),
+        "seeds": seeds,
+        "few_shot": {f"Train{count}": count for count in section["few_shot"]},
+        "protocol": list(protocols_of(database))[-1],
+        "perturbed_seeds": seeds[: section["robustness"]["splits"]],
+        "perturbed": {
+            f"{database}~{fault['perturbation']}-{strength:g}": {
+                "name": fault["perturbation"],
+                "strength": strength,
+            }
+            for fault in faults
+            for strength in fault["strengths"]
+        },
+    }
+
+
+def is_at_hand(database):
+    """Tell whether a database needs no download."""
+    return dataset_plugin(database).available(Path(config["data_root"]))
+
+
+def source_of(database):
+    """Return the database that a faulty one is made of; any other is its own."""
+    return database.partition("~")[0]
+
+
 def chosen_scenes():
     """Return the shapes of the page's view: those whose database is at hand."""
     for number, subject in enumerate(config["page"]["shapes"]):
@@ -235,10 +285,11 @@ CURVES = {"figure8": "table1", "figure_table2": "table2"}
 """Precision-recall curves: figure -> table."""
 
 TABLES = chosen_tables()
-COLUMNS = [column for table in TABLES.values() for column in table["columns"].values()]
+BEYOND = chosen_beyond()
+COLUMNS = [one for table in (*TABLES.values(), BEYOND) for one in table["columns"].values()]
 LEARNED = [column for column in COLUMNS if "network" in column]
 CLASSIFIED = [database for table in TABLES.values() for database in table["databases"]]
-PROTOCOLS = {database: protocols_of(database) for database in CLASSIFIED}
+PROTOCOLS = {database: protocols_of(database) for database in (*CLASSIFIED, BEYOND["database"])}
 METHODS = chosen_methods()
 MAPPED = chosen_databases("distortion", is_mapped_only)
 for name in config["reconstruction"]["parametrizers"]:
@@ -250,7 +301,7 @@ for figure in SUBJECTS:
 
 ON_PAGE = chosen_scenes()
 PICTURED = [one["database"] for subjects in (*SUBJECTS.values(), ON_PAGE) for one in subjects]
-DATASETS = instances("dataset", (*CLASSIFIED, *MAPPED, *PICTURED))
+DATASETS = instances("dataset", (*CLASSIFIED, BEYOND["database"], *MAPPED, *PICTURED))
 PARAMETRIZERS = instances(
     "parametrizer",
     (
@@ -274,14 +325,14 @@ IMAGES = {name: image_config(name) for name in config["images"]}
 
 
 wildcard_constraints:
-    database=alternatives(DATASETS),
+    database=alternatives((*DATASETS, *BEYOND["perturbed"])),
     parametrizer=alternatives(PARAMETRIZERS),
     descriptor=alternatives(DESCRIPTORS),
     descriptors="[a-z0-9+-]+",
     images=alternatives(IMAGES),
     network=alternatives(NETWORKS),
     baseline=alternatives(BASELINES),
-    table=alternatives(TABLES),
+    table=alternatives((*TABLES, "beyond")),
     column="[a-z0-9-]+",
     protocol="[A-Za-z0-9]+",
     seed=r"\d+",

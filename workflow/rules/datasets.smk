@@ -3,6 +3,8 @@ rule shapes:
         "results/datasets/{database}/shapes.csv",
     log:
         "results/logs/datasets/{database}.log",
+    wildcard_constraints:
+        database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
     params:
@@ -19,10 +21,12 @@ rule split:
         "results/datasets/{database}/splits/{protocol}-{seed}.csv",
     log:
         "results/logs/splits/{database}/{protocol}-{seed}.log",
+    wildcard_constraints:
+        database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
     params:
-        train_per_class=lookup("{database}/{protocol}", within=PROTOCOLS),
+        train_per_class=train_per_class,
         code=fingerprint_module("gipkg.datasets.splits"),
     script:
         "../scripts/split.py"

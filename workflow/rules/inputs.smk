@@ -2,10 +2,20 @@ def shards_of(pattern):
     """Return an input function: the files of all shards of a database, in order."""
 
     def shards(wildcards):
-        count = config["datasets"][wildcards.database]["shards"]
-        return expand(pattern, shard=range(count), allow_missing=True)
+        return all_shards(pattern, source_of(wildcards.database))
 
     return shards
+
+
+def perturbed_shards(pattern):
+    """Return an input function: the files of all shards of a source or what is made of it."""
+    return lambda wildcards: all_shards(pattern, wildcards.source)
+
+
+def all_shards(pattern, database):
+    """Return the files of all shards of a database, in order."""
+    count = config["datasets"][database]["shards"]
+    return expand(pattern, shard=range(count), allow_missing=True)
 
 
 def images_of(column):
@@ -55,7 +65,7 @@ def channels(wildcards):
 
 def predictions(wildcards):
     """Return the predictions of a column under one protocol, one for each seed."""
-    table = TABLES[wildcards.table]
+    table = BEYOND if wildcards.table == "beyond" else TABLES[wildcards.table]
     folder = trained(table["columns"][wildcards.column])
     pattern = f"results/{folder}/{{protocol}}-{{seed}}.npz"
     return expand(pattern, seed=seeds(wildcards), allow_missing=True)
@@ -72,13 +82,22 @@ def table_seeds(wildcards):
 
 def seeds(wildcards):
     """Return the seeds of a table that a database takes."""
+    if wildcards.table == "beyond":
+        faulty = wildcards.database in BEYOND["perturbed"]
+        return BEYOND["perturbed_seeds"] if faulty else BEYOND["seeds"]
     return table_seeds(wildcards)[wildcards.database]
+
+
+def train_per_class(wildcards):
+    """Return what trains of each class under a protocol of a database, or beyond the paper."""
+    known = {**BEYOND["few_shot"], **PROTOCOLS[wildcards.database]}
+    return known[wildcards.protocol]
 
 
 def splits(wildcards):
     """Return the splits of a database under one protocol, one for each seed of a table."""
-    pattern = "results/datasets/{database}/splits/{protocol}-{seed}.csv"
-    return expand(pattern, seed=seeds(wildcards), allow_missing=True)
+    folder = f"results/datasets/{source_of(wildcards.database)}/splits"
+    return expand(folder + "/{protocol}-{seed}.csv", seed=seeds(wildcards), allow_missing=True)
 
 
 def table_rows(wildcards):
@@ -132,7 +151,11 @@ def table_surveys(wildcards):
 
 def table_plugins(wildcards):
     """Return the plugins that a table is made of."""
-    table = TABLES[wildcards.table]
+    return plugins_of(TABLES[wildcards.table])
+
+
+def plugins_of(table):
+    """Return the plugins of the columns and databases of a table."""
     columns = table["columns"].values()
     learned = [column for column in columns if "network" in column]
     descriptors = [name for column in learned for name in column["descriptors"]]
@@ -146,7 +169,12 @@ def table_plugins(wildcards):
 
 def table_networks(wildcards):
     """Return the networks of a table with all of their parameters: slug of the column -> network."""
-    columns = TABLES[wildcards.table]["columns"]
+    return networks_of(TABLES[wildcards.table])
+
+
+def networks_of(table):
+    """Return the networks of the columns of a table."""
+    columns = table["columns"]
     return {
         name: NETWORKS[column["network"]] for name, column in columns.items() if "network" in column
     }
@@ -159,7 +187,7 @@ def drawn(of_table):
 
 def table_config(wildcards):
     """Return the configuration without the sections that a table does not depend on."""
-    other = {*TABLES, "distortion", "reconstruction", "figures"} - {wildcards.table}
+    other = {*TABLES, "beyond", "distortion", "reconstruction", "figures"} - {wildcards.table}
     return {key: part for key, part in config.items() if key not in other}
 
 

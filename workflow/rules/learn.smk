@@ -15,6 +15,8 @@ rule learn:
         "results/logs/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.log",
     benchmark:
         "results/benchmarks/learning/{database}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.tsv"
+    wildcard_constraints:
+        database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
     params:

@@ -14,6 +14,8 @@ rule score_table:
         provenance="results/{table}.json",
     log:
         "results/logs/{table}.log",
+    wildcard_constraints:
+        table=alternatives(TABLES),
     conda:
         "../../environment.yml"
     params:

@@ -7,15 +7,27 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import trimesh
 from gipkg.api import SphericalMap
 from gipkg.descriptors.operators import Operators, Spectrum
 from gipkg.shards import Arrays, Shard
+from gipkg.surfaces import Surface
 
 
 def mesh_of(surface: Arrays) -> trimesh.Trimesh:
     """Return a surface as it was prepared, vertex by vertex."""
     return trimesh.Trimesh(surface["vertices"], surface["faces"], process=False)
+
+
+def surface_arrays(surface: Surface) -> Arrays:
+    """Return what is kept of a prepared surface."""
+    return {
+        "vertices": np.asarray(surface.mesh.vertices),
+        "faces": np.asarray(surface.mesh.faces),
+        "mask": surface.mask,
+        "report": np.array(json.dumps(surface.report.as_dict())),
+    }
 
 
 def operators_of(surface: Arrays, spectrum: Arrays) -> Operators:

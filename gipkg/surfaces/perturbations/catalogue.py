@@ -4,28 +4,50 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 import trimesh
 
-from gipkg.surfaces.perturbations.missing import remove_holes, remove_region
+from gipkg.surfaces.perturbations.missing import HOLES, remove_holes, remove_region
 from gipkg.surfaces.perturbations.noise import add_noise
 from gipkg.surfaces.perturbations.remeshing import remesh
 from gipkg.surfaces.perturbations.shortcuts import add_shortcuts
 from gipkg.surfaces.preparation import prepare
 from gipkg.surfaces.surface import Surface
 
-Perturbation = Callable[[trimesh.Trimesh, float, np.random.Generator], trimesh.Trimesh]
-"""A closed genus-0 surface and a strength to a surface with faults; the first never changes."""
+
+@dataclass(frozen=True, slots=True)
+class Perturbation:
+    """Something that may be wrong with a surface.
+
+    Attributes
+    ----------
+    apply : callable
+        A closed genus-0 surface, a positive strength and a generator to the surface with its
+        faults; the first is never changed.
+    summary : str
+        What it does, and what its strength measures.
+    """
+
+    apply: Callable[[trimesh.Trimesh, float, np.random.Generator], trimesh.Trimesh]
+    summary: str
+
 
 PERTURBATIONS: Mapping[str, Perturbation] = MappingProxyType(
     {
-        "noise": add_noise,
-        "remesh": remesh,
-        "holes": remove_holes,
-        "shortcut": add_shortcuts,
-        "missing": remove_region,
+        "noise": Perturbation(
+            add_noise, "Gaussian noise at every vertex; its deviation in mean edge lengths"
+        ),
+        "remesh": Perturbation(remesh, "other triangles; vertices as a multiple of those before"),
+        "holes": Perturbation(
+            remove_holes, f"{HOLES} small holes; the share of the surface that they take together"
+        ),
+        "shortcut": Perturbation(
+            add_shortcuts, "tubes between places that are near in space alone; their number"
+        ),
+        "missing": Perturbation(remove_region, "one region is missing; its share of the surface"),
     }
 )
 
@@ -60,4 +82,4 @@ def perturb(
         The perturbed surface cannot be repaired.
     """
     rng = np.random.default_rng([seed, zlib.crc32(shape_id.encode())])
-    return prepare(PERTURBATIONS[name](mesh, strength, rng), smallest_part=0.0)
+    return prepare(PERTURBATIONS[name].apply(mesh, strength, rng), smallest_part=0.0)

@@ -25,7 +25,7 @@ URCHIN = urchin(6, 2.0, subdivisions=3)
 
 def apply(name: str, mesh: trimesh.Trimesh, strength: float, seed: int = 0) -> trimesh.Trimesh:
     before = mesh.vertices.copy(), mesh.faces.copy()
-    done = PERTURBATIONS[name](mesh, strength, np.random.default_rng(seed))
+    done = PERTURBATIONS[name].apply(mesh, strength, np.random.default_rng(seed))
     assert np.array_equal(mesh.vertices, before[0])
     assert np.array_equal(mesh.faces, before[1])
     return done

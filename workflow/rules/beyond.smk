@@ -1,0 +1,116 @@
+def beyond_settings():
+    """Return what the table beyond the paper compares, a row each: where its scores are, and what
+    is said of them.
+    """
+    database, protocol = BEYOND["database"], BEYOND["protocol"]
+    trained_on = {**BEYOND["few_shot"], protocol: PROTOCOLS[database][protocol]}
+    few = [("few-shot", database, name, str(count)) for name, count in trained_on.items()]
+    faults = [
+        (one["name"], faulty, protocol, f"{one['strength']:g}")
+        for faulty, one in BEYOND["perturbed"].items()
+    ]
+    return [*few, ("clean", database, protocol, ""), *faults]
+
+
+def beyond_evaluations(wildcards):
+    """Return the scores of the table beyond the paper: setting by setting, column by column."""
+    return [
+        f"results/evaluation/beyond/{database}/{column}/{protocol}.json"
+        for _, database, protocol, _ in beyond_settings()
+        for column in BEYOND["columns"]
+    ]
+
+
+rule perturb:
+    input:
+        surfaces="results/surfaces/{source}/{shard}.npz",
+        splits=expand(
+            "results/datasets/{{source}}/splits/{protocol}-{seed}.csv",
+            protocol=BEYOND["protocol"],
+            seed=BEYOND["perturbed_seeds"],
+        ),
+    output:
+        "results/surfaces/{source}~{perturbation}/{shard}.npz",
+    log:
+        "results/logs/surfaces/{source}~{perturbation}/{shard}.log",
+    benchmark:
+        "results/benchmarks/surfaces/{source}~{perturbation}/{shard}.tsv"
+    wildcard_constraints:
+        source=alternatives(DATASETS),
+    conda:
+        "../../environment.yml"
+    params:
+        perturbation=lookup("{source}~{perturbation}", within=BEYOND["perturbed"]),
+        seed=config["beyond"]["robustness"]["seed"],
+        code=fingerprint_module("gipkg.surfaces"),
+    script:
+        "../scripts/perturb.py"
+
+
+rule predict_perturbed:
+    input:
+        split="results/datasets/{source}/splits/{protocol}-{seed}.csv",
+        model="results/learning/{source}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.model.npz",
+        images=perturbed_shards(
+            "results/images/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/{shard}.npz"
+        ),
+    output:
+        "results/learning/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.npz",
+    log:
+        "results/logs/learning/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.log",
+    conda:
+        "../../environment.yml"
+    params:
+        code=fingerprint_module("gipkg.learning"),
+    script:
+        "../scripts/predict_perturbed.py"
+
+
+rule classify_perturbed:
+    input:
+        split="results/datasets/{source}/splits/{protocol}-{seed}.csv",
+        clean=perturbed_shards("results/baselines/{source}/{baseline}/{shard}.npz"),
+        perturbed=perturbed_shards(
+            "results/baselines/{source}~{perturbation}/{baseline}/{shard}.npz"
+        ),
+    output:
+        "results/baselines/{source}~{perturbation}/{baseline}/{protocol}-{seed}.npz",
+    log:
+        "results/logs/baselines/{source}~{perturbation}/{baseline}/{protocol}-{seed}.log",
+    conda:
+        "../../environment.yml"
+    params:
+        baseline=lookup("{baseline}", within=BASELINES),
+    script:
+        "../scripts/classify_perturbed.py"
+
+
+rule table_beyond:
+    input:
+        evaluations=beyond_evaluations,
+        survey=f"results/surfaces/{BEYOND['database']}.json",
+    output:
+        csv="results/table1_beyond.csv",
+        markdown="results/table1_beyond.md",
+        provenance="results/table1_beyond.json",
+        figure="results/figure_beyond.png",
+        figure_csv="results/figure_beyond.csv",
+        figure_provenance="results/figure_beyond.json",
+    log:
+        "results/logs/table1_beyond.log",
+    conda:
+        "../../environment.yml"
+    params:
+        config=config["beyond"],
+        database=BEYOND["database"],
+        seeds=BEYOND["seeds"],
+        perturbed_seeds=BEYOND["perturbed_seeds"],
+        settings=beyond_settings(),
+        plugins=plugins_of(BEYOND),
+        networks=networks_of(BEYOND),
+        code=[
+            fingerprint_module(name)
+            for name in ("gipkg.reporting.table_beyond", "gipkg.reporting.figures.beyond")
+        ],
+    script:
+        "../scripts/table_beyond.py"

@@ -1,0 +1,70 @@
+"""Set and draw what goes beyond the paper: few training shapes, and faulty test shapes."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+from gipkg.files import write_csv, write_json, write_text
+from gipkg.reporting import notes
+from gipkg.reporting import table_beyond as table
+from gipkg.reporting.figures import beyond as figure
+from gipkg.reporting.figures.layout import write_png
+from gipkg.reporting.provenance import environment
+from gipkg.reporting.records import as_table
+from gipkg.reporting.score_table import Cell, own_columns
+from gipkg.reporting.survey import Survey
+from gipkg.surfaces.perturbations import PERTURBATIONS
+
+import job
+
+job.start(snakemake)
+params, database = snakemake.params, snakemake.params.database
+columns = params.config["columns"]
+headings = [column["column"] for column in columns]
+plugins = job.plugins(params.plugins)
+
+
+def read(path: str) -> Any:
+    """Read what an earlier stage found out."""
+    return json.loads(Path(path).read_text(encoding="utf-8"))
+
+
+evaluations = map(read, snakemake.input.evaluations)
+rows = []
+for setting, _, _, amount in params.settings:
+    few = setting == "few-shot"
+    seeds = params.seeds if few else params.perturbed_seeds
+    scores = [[one for one in next(evaluations) if one["seed"] in seeds] for _ in headings]
+    cells = dict(zip(headings, map(Cell.of, scores), strict=True))
+    said = {"few-shot": table.FEW_SHOT, "clean": table.CLEAN}.get(setting, setting)
+    rows.append(table.Row("few-shot" if few else "robustness", said, amount, len(seeds), cells))
+
+splits = list(dict.fromkeys(protocol for _, _, protocol, _ in params.settings))
+survey = Survey(**read(snakemake.input.survey))
+text = [notes.database_note(database, splits, plugins["dataset", database], survey)]
+text += [notes.column_note(column, plugins) for column in columns]
+text += [
+    f"**{fault['perturbation']}**: {PERTURBATIONS[fault['perturbation']].summary}."
+    for fault in params.config["robustness"]["faults"]
+]
+text.append(
+    "A faulty surface is prepared again like any other: closed, of genus 0, the largest part. What "
+    "cannot be prepared or mapped counts as misclassified. Networks and baselines learn from "
+    f"surfaces as they are ({notes.literal(splits[-1])})."
+)
+text.append(notes.seeds_note({"few-shot": params.seeds, "robustness": params.perturbed_seeds}))
+
+write_csv(Path(snakemake.output.csv), *table.as_csv(rows))
+write_text(Path(snakemake.output.markdown), table.as_markdown(rows, text))
+write_png(Path(snakemake.output.figure), figure.draw(rows, own_columns(columns)))
+write_csv(Path(snakemake.output.figure_csv), *as_table(figure.points(rows)))
+provenance = {
+    **environment(),
+    "config": params.config,
+    "networks": params.networks,
+    "plugins": params.plugins,
+    "seeds": {"few-shot": params.seeds, "robustness": params.perturbed_seeds},
+    "databases": {database: {"sha256": dict(plugins["dataset", database].tags.files)}},
+}
+for path in (snakemake.output.provenance, snakemake.output.figure_provenance):
+    write_json(Path(path), provenance)
