@@ -2,11 +2,13 @@
 
 The supplement that fixed the architecture was never published. Section 5 of the paper gives
 three convolutions, a fully connected layer of 48, a softmax, no padding inside and 30 epochs;
-the rest is our choice and stands here as defaults, chosen on splits of SHREC'11 training parts.
+the rest is our choice and stands here as defaults, chosen on splits of the training parts of
+SHREC'11 and McGill.
 
-As in the paper, with the raw HKS, is ``batch_normalisation=False`` and 30 ``epochs`` of ``sgd``
-at 0.01 in ``steps`` with a ``weight_decay`` of 1e-4, and ``scaling="joint"``. What the paper leaves
-open there follows the same authors' SurfNet (Sinha, Unmesh, Huang & Ramani, CVPR 2017).
+As in the paper, with the raw HKS, is ``pooling="local"``, ``batch_normalisation=False`` and 30
+``epochs`` of ``sgd`` at 0.01 in ``steps`` with a ``weight_decay`` of 1e-4, and ``scaling="joint"``.
+What the paper leaves open there follows the same authors' SurfNet (Sinha, Unmesh, Huang & Ramani,
+CVPR 2017).
 """
 
 from __future__ import annotations
@@ -30,7 +32,7 @@ class NetworkConfig(BaseModel):
         "two. The first convolution is of 5 x 5 pixels, two apart, the others of 3 x 3.",
     )
     pooling: Literal["local", "average", "average+maximum"] = Field(
-        default="local",
+        default="average+maximum",
         description="What follows the last block: the maximum of two by two pixels, as between "
         "blocks; or the average of all pixels, or their average and their maximum, which keep "
         "nothing of where on the sphere something is.",

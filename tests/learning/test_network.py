@@ -25,14 +25,15 @@ def test_batch_normalisation_is_optional(normalise: bool) -> None:
     assert ("BatchNorm2d" in layers) == ("BatchNorm1d" in layers) == normalise
 
 
+PRINTED = NetworkConfig(pooling="local")
 DEEP = NetworkConfig(blocks=((8, 8), (16, 16), (32, 32)), pooling="average", features=96)
 
 
 @pytest.mark.parametrize("size", [63, 64, 75])
 def test_the_size_of_the_feature_map_is_what_the_layers_leave(size: int) -> None:
     images = torch.rand(2, 3, size, size)
-    side = feature_map_size(NetworkConfig(), size)
-    found = ImageNetwork(NetworkConfig(), 3, size, classes=4).convolutions(images)
+    side = feature_map_size(PRINTED, size)
+    found = ImageNetwork(PRINTED, 3, size, classes=4).convolutions(images)
     assert found.shape == (2, 96 * side**2)
     side = feature_map_size(DEEP, size)
     assert ImageNetwork(DEEP, 3, size, 4).convolutions[:-2](images).shape == (2, 32, side, side)
@@ -68,8 +69,8 @@ def test_views_pooled_together_are_of_one_shape_and_in_no_order() -> None:
 
 
 def test_images_that_are_too_small_are_refused() -> None:
-    assert feature_map_size(NetworkConfig(), 43) == 1
+    assert feature_map_size(PRINTED, 43) == 1
     with pytest.raises(LearningError, match="42 pixels"):
-        ImageNetwork(NetworkConfig(), channels=1, size=42, classes=2)
+        ImageNetwork(PRINTED, channels=1, size=42, classes=2)
     with pytest.raises(LearningError, match="62 pixels"):
         ImageNetwork(DEEP, channels=1, size=62, classes=2)
