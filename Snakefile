@@ -4,6 +4,8 @@ from pathlib import Path
 configfile: Path(workflow.basedir) / "config" / "config.yaml"
 
 
+include: "workflow/rules/configuration.smk"
+include: "workflow/rules/choices.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/inputs.smk"
 include: "workflow/rules/datasets.smk"

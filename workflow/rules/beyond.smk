@@ -23,18 +23,18 @@ def beyond_evaluations(wildcards):
 
 rule perturb:
     input:
-        surfaces="results/surfaces/{source}/{shard}.npz",
+        surfaces=shards_of("results/surfaces/{source}/{shard}.npz"),
         splits=expand(
             "results/datasets/{{source}}/splits/{protocol}-{seed}.csv",
             protocol=BEYOND["protocol"],
             seed=BEYOND["perturbed_seeds"],
         ),
     output:
-        "results/surfaces/{source}~{perturbation}/{shard}.npz",
+        "results/surfaces/{source}~{perturbation}/0.npz",
     log:
-        "results/logs/surfaces/{source}~{perturbation}/{shard}.log",
+        "results/logs/surfaces/{source}~{perturbation}/0.log",
     benchmark:
-        "results/benchmarks/surfaces/{source}~{perturbation}/{shard}.tsv"
+        "results/benchmarks/surfaces/{source}~{perturbation}/0.tsv"
     wildcard_constraints:
         source=alternatives(DATASETS),
     conda:
@@ -51,9 +51,7 @@ rule predict_perturbed:
     input:
         split="results/datasets/{source}/splits/{protocol}-{seed}.csv",
         model="results/learning/{source}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.model.npz",
-        images=perturbed_shards(
-            "results/images/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/{shard}.npz"
-        ),
+        images="results/images/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/0.npz",
     output:
         "results/learning/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.npz",
     log:
@@ -69,10 +67,8 @@ rule predict_perturbed:
 rule classify_perturbed:
     input:
         split="results/datasets/{source}/splits/{protocol}-{seed}.csv",
-        clean=perturbed_shards("results/baselines/{source}/{baseline}/{shard}.npz"),
-        perturbed=perturbed_shards(
-            "results/baselines/{source}~{perturbation}/{baseline}/{shard}.npz"
-        ),
+        clean=shards_of("results/baselines/{source}/{baseline}/{shard}.npz"),
+        perturbed="results/baselines/{source}~{perturbation}/{baseline}/0.npz",
     output:
         "results/baselines/{source}~{perturbation}/{baseline}/{protocol}-{seed}.npz",
     log:

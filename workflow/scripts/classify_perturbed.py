@@ -6,7 +6,7 @@ from samples import Features, read_split, write_prediction
 job.start(snakemake)
 baseline = job.plugin("baseline", snakemake.params.baseline)
 clean = Features(snakemake.input.clean, "representation")
-perturbed = Features(snakemake.input.perturbed, "representation")
+perturbed = Features([snakemake.input.perturbed], "representation")
 parts = (read_split(snakemake.input.split, part) for part in ("train", "test"))
 train, test = (
     {shape_id: part[shape_id] for shape_id in part if shape_id in known}

@@ -1,0 +1,171 @@
+def slug(column):
+    """Turn the heading of a column into a name for files."""
+    return re.sub("[^a-z0-9]+", "-", column.lower()).strip("-")
+
+
+def chosen_columns(table):
+    """Return the columns of a table by slug, every reference in them checked."""
+    columns = {}
+    for number, column in enumerate(config[table]["columns"]):
+        key = f"{table}.columns.{number}"
+        for field, section in (("baseline", "baselines"), ("parametrizer", "parametrizers")):
+            if field in column:
+                require_defined(f"{key}.{field}", column[field], section)
+        for descriptor in column.get("descriptors", ()):
+            require_defined(f"{key}.descriptors", descriptor, "descriptors")
+        if "network" in column:
+            require_defined(f"{key}.network", column["network"], "networks")
+            require_defined(f"{key}.images", column.get("images", "standard"), "images")
+        name = slug(column["column"])
+        if name in columns:
+            raise WorkflowError(f"configuration, {key}: {name!r} names two columns")
+        columns[name] = column
+    return columns
+
+
+def chosen_methods():
+    """Return the methods of the distortion table: parametrizer -> name in the paper, or None."""
+    methods = config["distortion"]["methods"]
+    for number, method in enumerate(methods):
+        key = f"distortion.methods.{number}.parametrizer"
+        require_defined(key, method["parametrizer"], "parametrizers")
+    return {method["parametrizer"]: method.get("paper") for method in methods}
+
+
+def chosen_databases(section, suits, upright=False):
+    """Return the databases that a section asks for; by default the real ones at hand that suit.
+
+    Where there is none of them, the generated ones stand in. By default shapes that stand upright
+    and shapes that do not are never mixed.
+    """
+    asked = config[section]["databases"]
+    if asked != "auto":
+        for name in asked:
+            require_defined(f"{section}.databases", name, "datasets")
+        return asked
+    root = Path(config["data_root"])
+    plugins = {name: dataset_plugin(name) for name in config["datasets"]}
+    plugins = {name: one for name, one in plugins.items() if (one.upright is not None) == upright}
+    real = [name for name, plugin in plugins.items() if not plugin.tags.generated]
+    found = [name for name in real if suits(name) and plugins[name].available(root)]
+    return found or [name for name in plugins if name not in real]
+
+
+def chosen_tables():
+    """Return what the tables of scores hold: table -> columns by slug, databases and seeds."""
+    tables = {}
+    for name, upright in (("table1", False), ("table2", True)):
+        databases = chosen_databases(name, protocols_of, upright)
+        for database in databases:
+            if not protocols_of(database):
+                raise WorkflowError(
+                    f"configuration, {name}.databases: {database!r} has no protocol to split it "
+                    f"by; datasets.{database}.protocols can name one"
+                )
+        columns, seeds = chosen_columns(name), config[name]["seeds"]
+        tables[name] = {"columns": columns, "databases": databases, "seeds": seeds}
+    return tables
+
+
+def chosen_subject(key, subjects):
+    """Return the database and shape that a figure shows: the first whose database is at hand."""
+    for number, subject in enumerate(subjects):
+        require_defined(f"{key}.{number}.database", subject["database"], "datasets")
+        if dataset_plugin(subject["database"]).available(Path(config["data_root"])):
+            return subject
+    raise WorkflowError(f"configuration, {key}: none of the databases is at hand")
+
+
+def chosen_subjects():
+    """Return the shapes of the figures that show one or two: figure -> database and shape."""
+    chosen = config["figures"]
+    subject = chosen_subject("figures.shapes", chosen["shapes"])
+    first = [
+        chosen_subject(f"figures.figure1.{part}", chosen["figure1"][part])
+        for part in ("whole", "holed")
+    ]
+    others = ("figure2", "figure3", "figure4", "figure5", "figure6")
+    return {"figure1": first, **{figure: [subject] for figure in others}}
+
+
+def chosen_beyond():
+    """Return what goes beyond the paper: database, columns, seeds, splits and faulty databases."""
+    section = config["beyond"]
+    for name in section["databases"]:
+        require_defined("beyond.databases", name, "datasets")
+    at_hand = (one for one in section["databases"] if is_at_hand(one) and protocols_of(one))
+    database = next(at_hand, None)
+    if database is None:
+        raise WorkflowError(
+            "configuration, beyond.databases: none of them is at hand and has a protocol"
+        )
+    seeds = section["seeds"][: config["datasets"][database].get("splits")]
+    faults = section["robustness"]["faults"]
+    for number, fault in enumerate(faults):
+        name = fault["perturbation"]
+        if name not in PERTURBATIONS:
+            raise WorkflowError(
+                f"configuration, beyond.robustness.faults.{number}.perturbation: there is no "
+                f"{name!r}{did_you_mean(name, PERTURBATIONS)} ({', '.join(PERTURBATIONS)})"
+            )
+    return {
+        "database": database,
+        "databases": [database],
+        "columns": chosen_columns("beyond"),
+        "seeds": seeds,
+        "few_shot": {f"Train{count}": count for count in section["few_shot"]},
+        "protocol": list(protocols_of(database))[-1],
+        "perturbed_seeds": seeds[: section["robustness"]["splits"]],
+        "perturbed": {
+            f"{database}~{fault['perturbation']}-{strength:g}": {
+                "name": fault["perturbation"],
+                "strength": strength,
+            }
+            for fault in faults
+            for strength in fault["strengths"]
+        },
+    }
+
+
+def is_at_hand(database):
+    """Tell whether a database needs no download."""
+    return dataset_plugin(database).available(Path(config["data_root"]))
+
+
+def source_of(database):
+    """Return the database that a faulty one is made of; any other is its own."""
+    return database.partition("~")[0]
+
+
+def chosen_scenes():
+    """Return the shapes of the page's view: those whose database is at hand."""
+    for number, subject in enumerate(config["page"]["shapes"]):
+        require_defined(f"page.shapes.{number}.database", subject["database"], "datasets")
+    for kind in ("parametrizers", "descriptors"):
+        for name in config["page"][kind]:
+            require_defined(f"page.{kind}", name, kind)
+    root = Path(config["data_root"])
+    return [
+        subject
+        for subject in config["page"]["shapes"]
+        if dataset_plugin(subject["database"]).available(root)
+    ]
+
+
+def dataset_plugin(name):
+    spec = instance("dataset", name)
+    return registry.create("dataset", spec["plugin"], spec["parameters"])
+
+
+def protocols_of(database):
+    """Return how a database is split: protocol -> what trains (gipkg.api.Protocol)."""
+    own = config["datasets"][database].get("protocols")
+    if own:
+        return own
+    protocols = dataset_plugin(database).protocols
+    return {name: protocol.train_per_class for name, protocol in protocols.items()}
+
+
+def is_mapped_only(database):
+    """Tell whether a database is there for its surfaces: nothing is classified in it."""
+    return not protocols_of(database)
