@@ -49,7 +49,8 @@ def list_(root: Path, as_json: bool) -> None:
     header = ("name", "shapes", "classes", "at hand", "licence", "source")
     keys = ("database", "shapes", "classes", "at_hand", "licence", "source")
     shown = [{**facts, "at_hand": "yes" if facts["at_hand"] else "no"} for facts in known]
-    click.echo(table(header, [[str(facts[key]) for key in keys] for facts in shown]))
+    cells = [["–" if facts[key] is None else str(facts[key]) for key in keys] for facts in shown]
+    click.echo(table(header, cells))
 
 
 @command.command()

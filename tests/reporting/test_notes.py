@@ -38,6 +38,15 @@ def test_a_generated_database_is_never_taken_for_a_real_one() -> None:
     assert "Generated" not in real
 
 
+def test_what_is_left_out_of_a_database_is_named() -> None:
+    found = Survey(4891, (700, 790, 800), {}, {})
+    voxels = registry.create("dataset", "modelnet10-voxels")
+    note = notes.database_note("grids", ["G"], voxels, found)
+    assert "voxel-derived" in note
+    assert note.count("(`an empty grid`)") == 8
+    assert "Left out: `bathtub-train-0006` (`an empty grid`); " in note
+
+
 def test_a_column_names_its_methods() -> None:
     plugins = {
         ("descriptor", "hks-raw"): registry.create("descriptor", "hks", {"logarithm": False}),
