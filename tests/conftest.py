@@ -12,6 +12,7 @@ from hypothesis import settings
 from tests.workflow.workdir import Workdir
 
 settings.register_profile("gipkg", deadline=None, print_blob=True)
+settings.register_profile("long", settings.get_profile("gipkg"), max_examples=10_000)
 settings.load_profile("gipkg")
 
 REPOSITORY = Path(__file__).resolve().parents[1]

@@ -82,8 +82,8 @@ def test_other_broken_models_go_through_the_volume(data_root, name, reason):
 def test_parts_apart_are_refused_or_joined(data_root):
     path = data_root / "surfaces" / "defective" / THREE_APART
     with pytest.raises(UnsupportedMesh, match=r"^blobby_3cc.off: .* 3 components has only 46%"):
-        prepare(path, resolution=50)
-    assert_closed(prepare(path, resolution=50, components="joined").mesh)
+        prepare(path)
+    assert_closed(prepare(path, components="joined").mesh)
 
 
 def test_every_broken_model_is_in_one_of_the_lists(data_root):
@@ -141,11 +141,11 @@ def test_tosca(data_root, archive, folder, names):
 
 SOUPS = {
     "bathtub_0001": "no volume",
-    "bathtub_0003": "repair loses",
+    "bathtub_0005": "repair loses",
     "airplane_0001": "parts has only 31%",
-    "airplane_0002": "one side",
+    "airplane_0002": "heap of faces",
+    "airplane_0004": "one side",
     "chair_0001": "parts has only 30%",
-    "toilet_0001": "parts has only 33%",
 }
 """A few of the 17; ``benchmarks/surfaces.py`` takes them all."""
 
@@ -156,10 +156,10 @@ def test_soups_of_modelnet_become_surfaces(data_root, tmp_path, name, reason):
     with tarfile.open(data_root / "modelnet10" / "modelnet_samples_off.tar.xz") as archive:
         member = next(m for m in archive if m.name.endswith(file.name))
         file.write_bytes(archive.extractfile(member).read())
-    surface = prepare(file)
+    surface = prepare(file, resolution=60, vertices=1000)
     assert surface.report.method == "volume"
     assert reason in surface.report.reason
     assert_closed(surface.mesh)
-    assert len(surface.mesh.vertices) == 3000
-    assert surface.report.deviation.mean < 0.02
-    assert surface.mask.all() == (name not in {"airplane_0001", "bathtub_0003", "chair_0001"})
+    assert len(surface.mesh.vertices) == 1000
+    assert surface.report.deviation.mean < 0.03
+    assert surface.mask.mean() < 0.95 or name not in {"airplane_0001", "chair_0001"}
