@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 import yaml
+from click.testing import CliRunner
 
+from gipkg import cli
 from tests.workflow.workdir import REPOSITORY, Workdir
 
 TEXT = (REPOSITORY / "README.md").read_text()
@@ -42,6 +45,19 @@ def test_the_parts_work_from_python(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert again.volume == pytest.approx(mesh.volume, rel=0.02)
     assert np.shape(names["image"]) == (3, 128, 128)
     assert np.shape(names["signature"]) == (len(mesh.vertices), 5)
+
+
+def test_the_parts_work_from_the_shell(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = trimesh.creation.icosphere(subdivisions=2)
+    mesh.export(tmp_path / "mesh.obj")
+    monkeypatch.chdir(tmp_path)
+    commands = [shlex.split(line) for line in block("sh").splitlines()]
+    assert {program for program, *_ in commands} == {"gipkg"}
+    for _, *arguments in commands:
+        done = CliRunner().invoke(cli.main, arguments)
+        assert done.exit_code == 0, done.output
+    again = trimesh.load(tmp_path / "again.glb", force="mesh")
+    assert again.volume == pytest.approx(mesh.volume, rel=0.02)
 
 
 def test_a_method_of_ones_own_is_named_as_shown(tmp_path: Path) -> None:
