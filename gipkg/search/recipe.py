@@ -122,12 +122,15 @@ class ImageMaker:
         """Return the fingerprints of the code that the images depend on, but this module's."""
         return tuple(registry.fingerprint(kind, spec.plugin) for kind, spec in self.recipe.specs())
 
-    def images(self, source: trimesh.Trimesh | Path) -> NDArray[np.float32]:
+    def images(self, source: trimesh.Trimesh | Path, name: str = "") -> NDArray[np.float32]:
         """Make the images of a mesh, one for each cut.
 
         Parameters
         ----------
         source : trimesh.Trimesh or Path
+        name : str
+            Seed of what is random about the cuts: in the workflow the shape's identifier, here
+            the same for all, since a file may have any name.
 
         Returns
         -------
@@ -146,7 +149,6 @@ class ImageMaker:
         operators = Operators(mesh, self.recipe.eigenpairs, mask=surface.mask)
         channels = np.hstack([one.describe(mesh, operators) for one in self.descriptors])
         spherical_map = SphericalMap(mesh, self.parametrizer.parametrize(mesh))
-        # A mesh has no name here: what is random about the cuts is the same for all.
-        cuts = self.recipe.choose(spherical_map, "")
+        cuts = self.recipe.choose(spherical_map, name)
         located = lookup(spherical_map, self.recipe.size, cuts, self.recipe.sampling)
         return located.render(channels)
