@@ -59,27 +59,30 @@ def as_data(scene: Scene) -> dict[str, Any]:
     seen = (vertices - vertex_areas(scene.mesh) @ vertices) @ axes.T
     seen = seen / np.linalg.norm(seen, axis=1).max()
     coordinates = dict(zip("xyz", seen.T, strict=True))
-    maps = {}
+    maps = []
     for name, sphere in scene.spheres.items():
         spherical_map = SphericalMap(scene.mesh, sphere)
         turned: Rotation = facing(spherical_map, camera)
         measured = distortion(spherical_map)
-        maps[name] = {
-            "sphere": _packed(turned.apply(sphere), "<f4"),
-            "ratio": _packed(_vertex_ratio(scene.mesh, spherical_map), "<f4"),
-            "std": measured.face_std,
-            "flips": measured.flips,
-        }
+        maps.append(
+            {
+                "name": name,
+                "sphere": _packed(turned.apply(sphere), "<f4"),
+                "ratio": _packed(_vertex_ratio(scene.mesh, spherical_map), "<f4"),
+                "std": measured.face_std,
+                "flips": measured.flips,
+            }
+        )
     return {
         "name": scene.name,
         "note": scene.note,
         "vertices": _packed(seen, "<f4"),
         "faces": _packed(faces, "<u4"),
         "maps": maps,
-        "channels": {
-            name: _packed(values, "<f4")
-            for name, values in {**coordinates, **scene.channels}.items()
-        },
+        "channels": [
+            {"name": name, "values": _packed(values, "<f4")}
+            for name, values in {**scene.channels, **coordinates}.items()
+        ],
     }
 
 

@@ -3,6 +3,7 @@
 
 (() => {
   const POINTS = 200;
+  const BOX = 1.7;
   const CUT = "rgb(204, 13, 13)";
   const data = JSON.parse(document.getElementById("scenes").textContent);
   const element = (id) => document.getElementById(id);
@@ -27,14 +28,14 @@
       const packed = data.scenes.find((one) => one.name === name);
       const faces = unpacked(packed.faces, Uint32Array);
       const maps = {}, channels = {};
-      for (const [key, map] of Object.entries(packed.maps))
-        maps[key] = {
+      for (const map of packed.maps)
+        maps[map.name] = {
           ...map,
           sphere: unpacked(map.sphere, Float32Array),
           ratio: unpacked(map.ratio, Float32Array),
         };
-      for (const [key, values] of Object.entries(packed.channels))
-        channels[key] = unpacked(values, Float32Array);
+      for (const channel of packed.channels)
+        channels[channel.name] = unpacked(channel.values, Float32Array);
       unpackedScenes.set(name, {
         name, faces, maps, channels,
         note: packed.note,
@@ -87,12 +88,27 @@
     };
   }
 
-  function draw(id, traces, revision) {
+  /* Lengths of the sides of a box that fills a plot, in the proportions of some points. */
+  function proportions(points) {
+    const sides = [0, 1, 2].map((k) => {
+      let low = Infinity, high = -Infinity;
+      for (let i = k; i < points.length; i += 3) {
+        low = Math.min(low, points[i]);
+        high = Math.max(high, points[i]);
+      }
+      return high - low;
+    });
+    const [x, y, z] = sides.map((side) => (BOX * side) / Math.max(...sides));
+    return { x, y, z };
+  }
+
+  function draw(id, points, traces, revision) {
     const hidden = { visible: false };
     Plotly.react(element(id), traces, {
       autosize: true, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: revision,
       scene: {
-        xaxis: hidden, yaxis: hidden, zaxis: hidden, aspectmode: "data", uirevision: revision,
+        xaxis: hidden, yaxis: hidden, zaxis: hidden, uirevision: revision,
+        aspectmode: "manual", aspectratio: proportions(points),
         camera: {
           eye: { x: 0, y: 0, z: 1.6 }, up: { x: 0, y: 1, z: 0 },
           projection: { type: "orthographic" },
@@ -142,8 +158,8 @@
       scene.faces, scene.vertices, 3,
     ));
     const lifted = onSphere.map((edge) => edge.map((value) => 1.01 * value));
-    draw("mesh", [surface(scene.vertices, scene.faces, values, scale), line(onMesh)], scene.name);
-    draw("sphere", [surface(map.sphere, scene.faces, values, scale), line(lifted)], scene.name);
+    draw("mesh", scene.vertices, [surface(scene.vertices, scene.faces, values, scale), line(onMesh)], scene.name);
+    draw("sphere", map.sphere, [surface(map.sphere, scene.faces, values, scale), line(lifted)], scene.name);
 
     element("note").textContent =
       `${scene.note}; ${scene.vertices.length / 3} vertices; area ratios of the map: standard ` +
