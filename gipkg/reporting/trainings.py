@@ -17,8 +17,8 @@ class Training:
     database, split : str
         The row.
     column : str
-    trainings : int
-        Those that ran from beginning to end; of one that was killed and resumed, only the rest
+    seconds_trainings : int
+        Trainings that ran from beginning to end; of one that was killed and resumed, only the rest
         is known, and it does not count.
     seconds_cpu, seconds_wall : float
         Their mean, training and prediction of the test part together; NaN of none.
@@ -27,7 +27,7 @@ class Training:
     database: str
     split: str
     column: str
-    trainings: int
+    seconds_trainings: int
     seconds_cpu: float
     seconds_wall: float
 

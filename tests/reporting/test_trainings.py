@@ -12,7 +12,7 @@ def test_only_trainings_seen_whole_count() -> None:
         {"cpu": 0.1, "wall": 0.1, "resumed": True},
     ]
     found = Training.of("db", "A", "Ours", timings)
-    assert (found.trainings, found.seconds_cpu, found.seconds_wall) == (2, 15.0, 7.0)
+    assert (found.seconds_trainings, found.seconds_cpu, found.seconds_wall) == (2, 15.0, 7.0)
     none = Training.of("db", "A", "Ours", timings[2:])
-    assert none.trainings == 0
+    assert none.seconds_trainings == 0
     assert math.isnan(none.seconds_cpu)
