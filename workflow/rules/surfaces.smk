@@ -8,6 +8,8 @@ rule surfaces:
         "results/logs/surfaces/{database}/{shard}.log",
     benchmark:
         "results/benchmarks/surfaces/{database}/{shard}.tsv"
+    wildcard_constraints:
+        database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
     params:
