@@ -71,6 +71,11 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
             {"figures": {"figure2": {"parametrizers": ["authalik"]}}},
             ["figures.figure2.parametrizers", "did you mean 'authalic'"],
         ),
+        ({"beyond": {"databases": ["shrec11"]}}, ["beyond.databases", "none of them is at hand"]),
+        (
+            {"beyond": {"robustness": {"faults": [{"perturbation": "noisy", "strengths": [1]}]}}},
+            ["beyond.robustness.faults.0", "did you mean 'noise'", "shortcut"],
+        ),
         ({"figures": {"figure4": {"parametrizers": ["authalic"]}}}, ["figure4", "too short"]),
         (
             {"parametrizers": {"authalic": {"plugin": "authalik"}}},

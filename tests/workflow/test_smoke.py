@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from gipkg.shards import Shard
 from tests.workflow.workdir import Workdir
@@ -37,6 +38,76 @@ def test_the_tables_keep_their_columns_of_one_heading_apart(smoke: Workdir) -> N
         assert list(provenance["plugins"]["descriptor"]) == [descriptor]
         trained = smoke.path / "results/learning/tiny/authalic" / descriptor
         assert (trained / "standard/shallow/Tiny1-0.npz").exists()
+
+
+def test_what_training_took_is_said_for_every_column(smoke: Workdir) -> None:
+    rows = read(smoke.path / "results/table1_seconds.csv")
+    assert [row["column"] for row in rows] == ["Zernike", "ShapeDNA", "Conformal", "Ours"]
+    for row in rows:
+        assert (row["database"], row["split"], row["seconds_trainings"]) == ("tiny", "Tiny1", "2")
+        assert float(row["seconds_cpu"]) > 0
+        assert float(row["seconds_wall"]) > 0
+
+
+def test_the_note_says_who_is_ahead(smoke: Workdir) -> None:
+    (row,) = read(smoke.path / "results/table1.csv")
+    (note,) = [
+        line
+        for line in (smoke.path / "results/table1.md").read_text().splitlines()
+        if "**Ours**" in line and ("ahead of" in line or "On no row" in line)
+    ]
+    for column in ("Zernike", "ShapeDNA", "Conformal"):
+        for metric in ("accuracy", "mAP"):
+            theirs, ours = (float(row[f"{one} {metric} mean"]) for one in (column, "Ours"))
+            assert (f"Tiny1 {metric}, {column} " in note) == (theirs > ours)
+
+
+def test_figure_8_shows_the_curves_of_the_table(smoke: Workdir) -> None:
+    points = read(smoke.path / "results/figure8.csv")
+    table = json.loads((smoke.path / "results/figure8.json").read_text())["config"]
+    columns = [column["column"] for column in table["columns"]]
+    assert len(points) == 11 * len(columns)
+    for column in columns:
+        curve = [point for point in points if point["column"] == column]
+        assert [float(point["recall"]) for point in curve] == [n / 10 for n in range(11)]
+        precision = [float(point["precision"]) for point in curve]
+        assert precision == sorted(precision, reverse=True)
+        scores = json.loads(
+            (smoke.path / f"results/evaluation/table1/tiny/{column.lower()}/Tiny1.json").read_text()
+        )
+        assert precision[5] == pytest.approx(np.mean([one["precision"][5] for one in scores]))
+    assert (smoke.path / "results/figure8.png").stat().st_size > 10_000
+
+
+def test_faults_are_those_of_test_shapes_and_nothing_learns_from_them(smoke: Workdir) -> None:
+    results = smoke.path / "results"
+    rows = read(results / "table1_beyond.csv")
+    assert [(row["setting"], row["amount"], row["splits"]) for row in rows] == [
+        ("training shapes a class", "1", "1"),
+        ("training shapes a class", "2", "1"),
+        ("as they are", "", "1"),
+        ("noise", "0.2", "1"),
+    ]
+    for row in rows:
+        for column in ("ShapeDNA", "Ours"):
+            assert 10 < float(row[f"{column} accuracy mean"]) <= 100
+            assert 0 < float(row[f"{column} mAP mean"]) <= 1
+    # The same networks and test shapes as in the table, for the first of its seeds.
+    shared = json.loads((results / "evaluation/table1/tiny/ours/Tiny1.json").read_text())[0]
+    assert float(rows[2]["Ours accuracy mean"]) == pytest.approx(100 * shared["accuracy"], abs=0.01)
+
+    split = read(results / "datasets/tiny/splits/Tiny1-0.csv")
+    tested = {row["id"] for row in split if row["part"] == "test"}
+    faulty = Shard.open(results / "surfaces/tiny~noise-0.2/0.npz")
+    assert set(faulty) == tested
+    clean = {
+        shape_id: shard[shape_id]["vertices"]
+        for shard in map(Shard.open, sorted((results / "surfaces/tiny").glob("*.npz")))
+        for shape_id in set(shard) & tested
+    }
+    for shape_id, arrays in faulty.items():
+        moved = np.linalg.norm(arrays["vertices"] - clean[shape_id], axis=1)
+        assert 0 < np.median(moved) < 0.1 * np.linalg.norm(np.ptp(clean[shape_id], axis=0))
 
 
 def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
