@@ -80,12 +80,16 @@ def chosen_subjects():
     """Return the shapes of the figures that show one or two: figure -> database and shape."""
     chosen = config["figures"]
     subject = chosen_subject("figures.shapes", chosen["shapes"])
-    first = [
-        chosen_subject(f"figures.figure1.{part}", chosen["figure1"][part])
-        for part in ("whole", "holed")
-    ]
-    others = ("figure2", "figure3", "figure4", "figure5", "figure6")
-    return {"figure1": first, **{figure: [subject] for figure in others}}
+    whole, holed, upright = (
+        chosen_subject(f"figures.{figure}.{part}", chosen[figure][part])
+        for figure, part in (("figure1", "whole"), ("figure1", "holed"), ("figure6", "upright"))
+    )
+    alone = ("figure2", "figure3", "figure4", "figure5")
+    return {
+        "figure1": [whole, holed],
+        **{figure: [subject] for figure in alone},
+        "figure6": [subject, upright],
+    }
 
 
 def chosen_beyond():

@@ -1,12 +1,19 @@
-"""Draw Figure 6: a shape under the cuts of the paper."""
+"""Draw Figure 6: a shape with limbs and one that stands upright, under the cuts of the paper."""
 
 from gipkg.reporting.figures import figure6
 
 import job
-from subject import parametrizers, read_subject, write_figure
+from meshes import mesh_of
+from subject import parametrizers, read_surface, write_figure
 
 job.start(snakemake)
-mesh = read_subject(snakemake)
 (parametrizer,) = parametrizers(snakemake).values()
-cuts = figure6.cut(mesh, parametrizer.parametrize(mesh), snakemake.params.size)
-write_figure(snakemake, figure6.draw(cuts), cuts.views())
+meshes = [mesh_of(read_surface(snakemake, number)) for number in (0, 1)]
+limbed, standing = (
+    make(shape, mesh, parametrizer.parametrize(mesh), snakemake.params.size)
+    for make, shape, mesh in zip(
+        (figure6.cut, figure6.cut_upright), snakemake.params.shapes, meshes, strict=True
+    )
+)
+views = [*limbed.views(), *standing.views()]
+write_figure(snakemake, figure6.draw(limbed, standing), views)

@@ -1,26 +1,27 @@
-"""Figure 6: one shape, many cuts: turns about polar axes, and the two ends of one axis."""
+"""Figure 6: one shape, many cuts: turns about polar axes, opposite axes, and upright shapes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
 from gipkg.images import PixelLookup, lookup, pad, standard_cuts
-from gipkg.images.cuts import TURNS
+from gipkg.images.cuts import TURNS, UPRIGHT_TURNS, upright_cuts
 from gipkg.images.octahedron import sphere_to_square
-from gipkg.reporting.cameras import Camera, principal_camera
-from gipkg.reporting.colours import CUT, INK
+from gipkg.reporting.cameras import Camera, camera_on, principal_camera
+from gipkg.reporting.colours import CUT, INK, sequential
 from gipkg.reporting.cut_lines import cut_lines
 from gipkg.reporting.figures.appearance import facing, shaded, tip_colours
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
 from gipkg.reporting.rendering import Lines, Surface, render
-from gipkg.reporting.tips import Tips, limb_tips
+from gipkg.reporting.tips import AREA, limb_tips, vertex_areas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,28 +29,36 @@ if TYPE_CHECKING:
 
 _SIDE = 1.5
 """Width and height of a picture, in inches."""
+_STANDING = (1.0, -2.0, 0.6)
+"""Direction from a shape that stands upright to the eye."""
 AXES = ("+z", "-z", "+x", "-x", "+y", "-y")
 """Polar axes in the order of :func:`gipkg.images.standard_cuts`; z is to the eye."""
+UP = "up"
+"""Polar axis of a shape that stands upright."""
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A row of the CSV: where a cut puts a part of the shape.
+    """A row of the CSV: where a cut puts a part of a shape.
 
     Attributes
     ----------
+    shape : str
+        Its identifier.
     axis : str
-        The polar axis, out of `AXES`.
+        The polar axis, out of `AXES`, or `UP`.
     turn : float
         About it, in degrees.
     part : str
-        ``tip 1`` for the end of the limb that reaches farthest from the middle.
+        ``tip 1`` for the end of the limb that reaches farthest from the middle, ``top`` for what
+        is highest.
     u, v : float
         Place of the part's end in the image, from -1 to 1.
     pixels : int
         Of the image, whose nearest vertex is in the part.
     """
 
+    shape: str
     axis: str
     turn: float
     part: str
@@ -60,44 +69,62 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class Cuts:
-    """A shape with limbs under all cuts.
+    """A shape under many cuts.
 
     Attributes
     ----------
+    shape : str
+        Its identifier.
     spherical_map : SphericalMap
-        Turned as the mesh is seen.
     camera : Camera
         That the mesh is seen by.
-    tips : Tips
+    parts : mapping
+        Name -> end and vertices of what is followed from image to image.
+    colours : (V, 3) float64 array
+    cuts : Rotation
+    names : sequence of (str, float)
+        Polar axis and turn of each cut.
     located : PixelLookup
         Of the images of all cuts.
     """
 
+    shape: str
     spherical_map: SphericalMap
     camera: Camera
-    tips: Tips
+    parts: Mapping[str, tuple[int, NDArray[np.bool_]]]
+    colours: NDArray[np.float64]
+    cuts: Rotation
+    names: Sequence[tuple[str, float]]
     located: PixelLookup
 
+    @property
+    def images(self) -> NDArray[np.float64]:
+        """Colours as geometry images (K, 3, n, n), one a cut."""
+        coloured = shaded(self.spherical_map.mesh, self.colours, self.camera)
+        return self.located.render(coloured, np.float64)
+
     def views(self) -> list[View]:
-        """Say in numbers where every cut puts the tips."""
+        """Say in numbers where every cut puts the parts."""
         rows = []
-        nearest = self.located.faces[self.located.face]
-        nearest = np.take_along_axis(nearest, self.located.weights.argmax(-1)[..., None], -1)
-        for number, cut in enumerate(standard_cuts()):
-            places = sphere_to_square(cut.apply(self.spherical_map.sphere[self.tips.vertex]))
-            region = self.tips.region[nearest[number]]
-            for tip, (u, v) in enumerate(places.tolist()):
-                seen = int((region == tip).sum())
-                axis, turn = AXES[number // TURNS], 360 / TURNS * (number % TURNS)
-                rows.append(View(axis, turn, f"tip {tip + 1}", u, v, seen))
+        corners = self.located.faces[self.located.face]
+        largest = self.located.weights.argmax(-1)[..., None]
+        nearest = np.take_along_axis(corners, largest, -1)[..., 0]
+        for number, (axis, turn) in enumerate(self.names):
+            for name, (end, inside) in self.parts.items():
+                place = self.cuts[number].apply(self.spherical_map.sphere[end])
+                u, v = sphere_to_square(place).tolist()
+                seen = int(inside[nearest[number]].sum())
+                rows.append(View(self.shape, axis, turn, name, u, v, seen))
         return rows
 
 
-def cut(mesh: trimesh.Trimesh, sphere: NDArray[np.float64], size: int) -> Cuts:
-    """Make the images of a mapped shape for all cuts of the paper.
+def cut(shape: str, mesh: trimesh.Trimesh, sphere: NDArray[np.float64], size: int) -> Cuts:
+    """Make the images of a shape with limbs for the 36 cuts of the paper.
 
     Parameters
     ----------
+    shape : str
+        Its identifier.
     mesh : trimesh.Trimesh
         Closed genus-0 surface with V vertices.
     sphere : (V, 3) float64 array
@@ -107,45 +134,90 @@ def cut(mesh: trimesh.Trimesh, sphere: NDArray[np.float64], size: int) -> Cuts:
     """
     camera = principal_camera(np.asarray(mesh.vertices))
     turn = facing(SphericalMap(mesh, sphere), camera)
-    spherical_map = SphericalMap(mesh, turn.apply(sphere))
+    spherical_map, cuts = SphericalMap(mesh, turn.apply(sphere)), standard_cuts()
+    tips = limb_tips(mesh)
+    parts = {
+        f"tip {tip + 1}": (int(end), tips.region == tip) for tip, end in enumerate(tips.vertex)
+    }
+    names = [(axis, 360 / TURNS * turn) for axis in AXES for turn in range(TURNS)]
+    located = lookup(spherical_map, size, cuts)
+    return Cuts(shape, spherical_map, camera, parts, tip_colours(tips), cuts, names, located)
+
+
+def cut_upright(shape: str, mesh: trimesh.Trimesh, sphere: NDArray[np.float64], size: int) -> Cuts:
+    """Make the images of a shape whose z axis points up for its 12 turns.
+
+    Parameters
+    ----------
+    shape, mesh, sphere, size
+        As in :func:`cut`.
+    """
+    vertices, spherical_map = np.asarray(mesh.vertices), SphericalMap(mesh, sphere)
+    cuts = upright_cuts(spherical_map)
+    downward = np.argsort(-vertices[:, 2], kind="stable")
+    top = np.zeros(len(vertices), dtype=bool)
+    top[downward[np.cumsum(vertex_areas(mesh)[downward]) <= AREA]] = True
+    names = [(UP, 360 / UPRIGHT_TURNS * turn) for turn in range(UPRIGHT_TURNS)]
     return Cuts(
-        spherical_map, camera, limb_tips(mesh), lookup(spherical_map, size, standard_cuts())
+        shape,
+        spherical_map,
+        camera_on(vertices, _STANDING, up=[0, 0, 1]),
+        {"top": (int(downward[0]), top)},
+        sequential(vertices[:, 2]),
+        cuts,
+        names,
+        lookup(spherical_map, size, cuts),
     )
 
 
-def draw(cuts: Cuts) -> Figure:
-    """Draw a row of turns for each of two polar axes, the second padded, and opposite axes."""
-    figure = page(_SIDE * (1 + TURNS) + 0.3, 4 * (_SIDE + 0.3))
-    grid = figure.subplots(4, 1 + TURNS)
-    mesh = cuts.spherical_map.mesh
-    colours = tip_colours(cuts.tips)
-    images = cuts.located.render(shaded(mesh, colours, cuts.camera), np.float64)
-    size = images.shape[-1]
-    margin = size // 2
+def draw(limbed: Cuts, standing: Cuts) -> Figure:
+    """Draw both shapes under their cuts.
+
+    Parameters
+    ----------
+    limbed : Cuts
+        From :func:`cut`: a row of turns for each of two polar axes, the second padded too, and the
+        two ends of one axis.
+    standing : Cuts
+        From :func:`cut_upright`: all turns.
+    """
+    figure = page(_SIDE * (1 + TURNS) + 0.3, 6 * (_SIDE + 0.3))
+    grid = figure.subplots(6, 1 + TURNS)
+    images = limbed.images
+    margin = images.shape[-1] // 2
+    behind = replace(limbed.camera, towards_eye=-limbed.camera.towards_eye)
     for row, axis in ((0, "+z"), (1, "+x")):
         first = TURNS * AXES.index(axis)
-        panel(grid[row, 0], _picture(cuts, colours, first), f"polar axis {axis}")
-        _draw_turns(grid[row, 1:], images[first : first + TURNS])
-    _draw_turns(grid[2, 1:], pad(images[first : first + TURNS], margin), margin)
+        turns = range(first, first + TURNS)
+        panel(grid[row, 0], _picture(limbed, first, behind), f"polar axis {axis}")
+        _draw_turns(grid[row, 1:], images[turns], limbed.names[first:])
+    _draw_turns(grid[2, 1:], pad(images[turns], margin), limbed.names[first:], margin)
     _say(grid[2, 0], f"the same,\npadded by {margin} pixels")
     _draw_opposite(grid[3], images[[TURNS * AXES.index(axis) for axis in ("+z", "-z")]])
+    images = standing.images
+    panel(grid[4, 0], _picture(standing, 0, standing.camera), "upright", standing.shape)
+    _draw_turns(grid[4, 1:], images[:TURNS], standing.names)
+    _say(grid[5, 0], "its other turns;\nlight is high")
+    _draw_turns(grid[5, 1:], images[TURNS:], standing.names[TURNS:])
     return figure
 
 
-def _picture(cuts: Cuts, colours: NDArray[np.float64], number: int) -> NDArray[np.uint8]:
-    """Draw the mesh with a cut on it, from where the cut is seen best: the south pole."""
-    mesh, rotation = cuts.spherical_map.mesh, standard_cuts()[number]
-    radius = 0.02 * cuts.camera.half_height
-    lines = Lines(cut_lines(cuts.spherical_map, rotation), CUT, radius)
-    seen = Camera(
-        cuts.camera.centre, -cuts.camera.towards_eye, cuts.camera.up, cuts.camera.half_height
-    )
-    return render([Surface(mesh, colours), lines], seen, pixels(_SIDE, _SIDE))
+def _picture(cuts: Cuts, number: int, camera: Camera) -> NDArray[np.uint8]:
+    """Draw the mesh with a cut on it."""
+    radius = 0.02 * camera.half_height
+    lines = Lines(cut_lines(cuts.spherical_map, cuts.cuts[number]), CUT, radius)
+    surface = Surface(cuts.spherical_map.mesh, cuts.colours)
+    return render([surface, lines], camera, pixels(_SIDE, _SIDE))
 
 
-def _draw_turns(row: Sequence[Axes], images: NDArray[np.float64], margin: int = 0) -> None:
-    for number, (axes, image) in enumerate(zip(row, images, strict=True)):
-        panel(axes, as_picture(image), f"{360 // TURNS * number}°")
+def _draw_turns(
+    row: Sequence[Axes],
+    images: NDArray[np.float64],
+    names: Sequence[tuple[str, float]],
+    margin: int = 0,
+) -> None:
+    for axes, image, (_, turn) in zip(row, images, names, strict=False):
+        panel(axes, as_picture(image), f"{turn:g}°")
         if margin:
             _frame(axes, image.shape[-1], margin)
 

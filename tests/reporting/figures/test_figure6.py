@@ -20,7 +20,7 @@ from gipkg.reporting.figures.layout import write_png
 
 @pytest.fixture(scope="module")
 def cuts(hand: trimesh.Trimesh) -> figure6.Cuts:
-    return figure6.cut(hand, gipkg.parametrize(hand).sphere, size=32)
+    return figure6.cut("a hand", hand, gipkg.parametrize(hand).sphere, size=32)
 
 
 def test_all_cuts_show_all_tips(cuts: figure6.Cuts) -> None:
@@ -36,6 +36,17 @@ def test_all_cuts_show_all_tips(cuts: figure6.Cuts) -> None:
     for (axis, turn, part), (u, v) in half_turns.items():
         if turn < 180:
             assert half_turns[axis, turn + 180, part] == pytest.approx((-u, -v))
+
+
+def test_an_upright_shape_is_turned_about_what_is_highest(ellipsoid_map: SphericalMap) -> None:
+    upright = figure6.cut_upright("an egg", ellipsoid_map.mesh, ellipsoid_map.sphere, size=33)
+    views = upright.views()
+    assert [view.turn for view in views] == [30.0 * turn for turn in range(12)]
+    assert {(view.shape, view.axis, view.part) for view in views} == {("an egg", "up", "top")}
+    for view in views:
+        assert (view.u, view.v) == pytest.approx((0, 0), abs=1e-6)
+    # The map of an ellipsoid shrinks its long end: 2 % of the area, and not that of the sphere.
+    assert 0 < min(view.pixels for view in views) < 0.02 * 33**2
 
 
 def test_cut_lines_run_over_the_surface_from_one_pole(ellipsoid_map: SphericalMap) -> None:
@@ -55,9 +66,10 @@ def test_cut_lines_run_over_the_surface_from_one_pole(ellipsoid_map: SphericalMa
 
 
 def test_the_figure_frames_what_is_padded(cuts: figure6.Cuts, tmp_path: Path) -> None:
-    write_png(tmp_path / "figure.png", figure6.draw(cuts))
+    standing = figure6.cut_upright("a hand", cuts.spherical_map.mesh, cuts.spherical_map.sphere, 32)
+    write_png(tmp_path / "figure.png", figure6.draw(cuts, standing))
     drawn = np.asarray(Image.open(tmp_path / "figure.png").convert("RGB")).astype(float)
     colourful = np.ptp(drawn, axis=2) > 60
-    for row in np.array_split(colourful, 4, axis=0):
+    for row in np.array_split(colourful, 6, axis=0):
         pictures = np.array_split(row, 7, axis=1)
         assert sum(picture.any() for picture in pictures) >= 4
