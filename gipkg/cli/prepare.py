@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -17,6 +18,34 @@ share = click.FloatRange(0, 1)
 @click.command()
 @files_argument("MESH")
 @output_options(MESH_SUFFIXES)
+@click.option(
+    "--method",
+    type=click.Choice(["auto", "repair", "volume"]),
+    default="auto",
+    show_default=True,
+    help="Repair, remake through voxels, or through voxels where repair fails or loses parts.",
+)
+@click.option(
+    "--resolution",
+    type=click.IntRange(10, 300),
+    default=100,
+    show_default=True,
+    help="Voxels along the longest side of a mesh that is remade.",
+)
+@click.option(
+    "--vertices",
+    type=click.IntRange(4),
+    default=3000,
+    show_default=True,
+    help="Most vertices of a mesh that is remade.",
+)
+@click.option(
+    "--components",
+    type=click.Choice(["largest", "joined"]),
+    default="largest",
+    show_default=True,
+    help="What becomes of the parts of a mesh that is remade: strands can join them.",
+)
 @click.option(
     "--merge-tolerance",
     type=share,
@@ -44,15 +73,13 @@ def command(
     output: Path,
     suffix: str | None,
     force: bool,
-    merge_tolerance: float,
-    smallest_part: float,
-    largest_hole: float,
     as_json: bool,
+    **options: Any,
 ) -> None:
     """Close and repair meshes: one component, oriented, genus 0.
 
-    A mesh that is such a surface already is written as it is. Reads all that trimesh reads
-    (.off .obj .ply .stl .glb ...).
+    A mesh that is such a surface already is written as it is, unless --method volume asks for
+    voxels. Reads all that trimesh reads (.off .obj .ply .stl .glb ...).
     """
     jobs = plan(files, output, suffix, MESH_SUFFIXES)
 
@@ -60,12 +87,7 @@ def command(
         from gipkg.formats.meshes import write_mesh
         from gipkg.surfaces import prepare
 
-        surface = prepare(
-            job.source,
-            merge_tolerance=merge_tolerance,
-            smallest_part=smallest_part,
-            largest_hole=largest_hole,
-        )
+        surface = prepare(job.source, **options)
         write_mesh(job.target, surface.mesh)
         return surface.report.as_dict()
 

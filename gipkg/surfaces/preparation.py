@@ -87,7 +87,7 @@ def prepare(
     most_handles : int
         Most handles that repair cuts.
     most_faces : int
-        Most faces of a mesh that is left as it is or repaired. The volume takes any number.
+        Most faces of a mesh that is left as it is or repaired. The volume takes ten million.
     resolution : int
         Voxels along the longest side of a mesh that goes through the volume.
     components : {"largest", "joined"}

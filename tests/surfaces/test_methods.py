@@ -113,6 +113,12 @@ def test_too_large_a_mesh_is_refused_or_made_smaller():
     assert_remade(ball, "asked for", method="volume", most_faces=1000)
 
 
+def test_more_faces_than_memory_holds(monkeypatch):
+    monkeypatch.setattr("gipkg.surfaces.soups.assembly.MOST_FACES", 1000)
+    with pytest.raises(UnsupportedMesh, match="1600 faces, more than 1000"):
+        prepare(torus(40, 20), method="volume")
+
+
 def test_a_heap_of_faces_is_no_surface():
     fan = np.column_stack((np.zeros(600), np.ones(600), 2 + np.arange(600))).astype(int)
     turn = np.linspace(0, 2 * np.pi, 600, endpoint=False)

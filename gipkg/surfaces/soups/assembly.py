@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Literal
 
+from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces.report import Step
 from gipkg.surfaces.soups.voxelisation import voxelise
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.volumes import volume_surface
+
+MOST_FACES = 10_000_000
+"""Faces at the most: 500 bytes of memory each."""
 
 
 def soup_surface(
@@ -39,8 +43,12 @@ def soup_surface(
     Raises
     ------
     UnsupportedMesh
-        The largest of its components is too small a share of it.
+        The largest of its components is too small a share of it, or its faces are too many.
     """
+    if len(soup.faces) > MOST_FACES:
+        raise UnsupportedMesh(
+            f"it has {len(soup.faces)} faces, more than {MOST_FACES}. Decimate it"
+        )
     soup = soup.compact()
     volume, original = voxelise(soup.vertices, soup.faces, resolution)
     surface = volume_surface(
