@@ -44,7 +44,7 @@ class Folder(Dataset):
         licence="the user's own",
         source="a folder on this machine",
     )
-    protocols: ClassVar[Mapping[str, Protocol]] = {"Own": Protocol(0.8)}
+    protocols: ClassVar[Mapping[str, Protocol]] = {"Own": Protocol(0.5)}
 
     path: Path = Field(
         Path("meshes"), description="The folder; a relative path counts from the working directory."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from typing import Literal
 
@@ -28,11 +28,21 @@ def split(
     Raises
     ------
     SplitError
-        As :func:`random_split` and :func:`official_split`.
+        As :func:`random_split` and :func:`official_split`; or no class has two test shapes, so
+        that none can be retrieved by another.
     """
     if train_per_class == "official":
-        return official_split(shapes)
-    return random_split(shapes, train_per_class, seed)
+        train, test = official_split(shapes)
+    else:
+        train, test = random_split(shapes, train_per_class, seed)
+    tested = frozenset(test)
+    sizes = Counter(shape.label for shape in shapes if shape.id in tested)
+    if max(sizes.values()) < 2:
+        raise SplitError(
+            "no class has two shapes in the test part, so nothing can be retrieved; let fewer "
+            "train, or use larger classes"
+        )
+    return train, test
 
 
 def official_split(shapes: Sequence[Shape]) -> Parts:

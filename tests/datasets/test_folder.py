@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from gipkg.datasets import split
+from gipkg.datasets import official_split
 from gipkg.datasets.folder import Folder
 from gipkg.errors import DatasetLayoutError, DatasetNotFound, MeshFormatError
 from gipkg.testing import run_checks
@@ -68,7 +68,7 @@ def test_upright_is_what_the_user_says(mugs):
 def test_parts_as_in_modelnet_are_the_official_split(tmp_path):
     for name in ("mugs/train/a", "mugs/train/b", "mugs/test/c", "jugs/train/a", "jugs/test/d"):
         write(tmp_path / f"{name}.ply")
-    train, test = split(shapes_of(tmp_path), "official", seed=0)
+    train, test = official_split(shapes_of(tmp_path))
     assert train == ("jugs-a", "mugs-a", "mugs-b")
     assert test == ("jugs-d", "mugs-c")
 

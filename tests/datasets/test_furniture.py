@@ -79,8 +79,8 @@ def test_ten_classes_with_an_official_split():
     train, test = split(shapes, "official", seed=0)
     assert (len(train), len(test)) == (160, 40)
     assert {shape.label for shape in shapes} == set(CLASSES)
-    smallest = Furniture(per_class=2).shapes(ROOT)
-    assert Counter(shape.part for shape in smallest) == {"train": 10, "test": 10}
+    smallest = Furniture(per_class=4).shapes(ROOT)
+    assert Counter(shape.part for shape in smallest) == {"train": 20, "test": 20}
 
 
 @pytest.mark.parametrize("name", CLASSES)
@@ -171,7 +171,7 @@ def test_unknown_shape():
         Furniture().load(ROOT, "bed-020")
 
 
-@pytest.mark.parametrize("parameters", [{"seed": -1}, {"per_class": 1}, {"colour": 1}])
+@pytest.mark.parametrize("parameters", [{"seed": -1}, {"per_class": 3}, {"colour": 1}])
 def test_bounds_of_the_parameters(parameters):
     with pytest.raises(ValidationError):
         Furniture(**parameters)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tarfile
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar
 from zipfile import ZipFile, ZipInfo
@@ -12,7 +13,7 @@ import numpy as np
 import pytest
 
 from gipkg.api import DatasetTags
-from gipkg.datasets import split, zip_archives
+from gipkg.datasets import official_split, zip_archives
 from gipkg.datasets.modelnet import ModelNet10, ModelNetMeshes
 from gipkg.errors import DatasetNotFound, MeshFormatError
 from tests.datasets.tar_files import checksum
@@ -73,8 +74,7 @@ def unpacked(tmp_path, monkeypatch):
 
 
 def declare(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = {Small.archive: checksum(path)}
-    tags = DatasetTags(False, 5, 2, "none stated", "a test", files)
+    tags = replace(ModelNet10.tags, shapes=5, classes=2, files={Small.archive: checksum(path)})
     monkeypatch.setattr(Small, "tags", tags, raising=False)
 
 
@@ -91,7 +91,7 @@ def test_archive_and_folder_are_one_database(form, request):
         ("bed_0002", "bed", "test"),
     }
     assert [shape.id for shape in shapes] == sorted(shape.id for shape in shapes)
-    assert split(shapes, "official", seed=0)[1] == ("bed_0002", "night_stand_0003")
+    assert official_split(shapes)[1] == ("bed_0002", "night_stand_0003")
     mesh = Small().load(root, "night_stand_0002")
     np.testing.assert_array_equal(mesh.vertices, [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     assert len(mesh.faces) == 2

@@ -78,3 +78,10 @@ def test_a_shape_outside_the_official_split_is_named():
         split(shapes, "official", seed=0)
     with pytest.raises(SplitError, match="empty"):
         split(shapes[:1], "official", seed=0)
+
+
+@pytest.mark.parametrize("train_per_class", [3, 0.8, "official"])
+def test_something_must_be_left_to_retrieve(train_per_class):
+    shapes = [Shape(f"{c}{i}", c, "test" if i == 3 else "train") for c in "ab" for i in range(4)]
+    with pytest.raises(SplitError, match="no class has two shapes in the test part"):
+        split(shapes, train_per_class, seed=0)

@@ -41,8 +41,8 @@ CLASSES: Mapping[str, Callable[[np.random.Generator], Model]] = MappingProxyType
 )
 SOLIDS = 0.3
 """Share of the models whose boxes are united to a solid; the others are soups."""
-TRAINING = 0.8
-"""Share of a class that is the training part of the official split."""
+TEST = 0.2
+"""Share of a class that is the test part of the official split, but for two shapes at least."""
 
 
 class Furniture(Dataset):
@@ -73,7 +73,7 @@ class Furniture(Dataset):
     }
 
     seed: int = Field(0, ge=0, description="Seed of all shapes.")
-    per_class: int = Field(20, ge=2, le=1000, description="Shapes in each of the ten classes.")
+    per_class: int = Field(20, ge=4, le=1000, description="Shapes in each of the ten classes.")
 
     @property
     def upright(self) -> Axis:
@@ -89,7 +89,7 @@ class Furniture(Dataset):
 
     def shapes(self, root: Path) -> tuple[Shape, ...]:
         """All shapes; an identifier is the class and an index, such as ``night_stand-007``."""
-        training = int(TRAINING * self.per_class)
+        training = self.per_class - max(2, int(TEST * self.per_class))
         return tuple(
             Shape(f"{label}-{index:03d}", label, "train" if index < training else "test")
             for label in CLASSES
