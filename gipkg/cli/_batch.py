@@ -145,29 +145,46 @@ def for_each(
     for item in progress(items, label) if len(items) > 1 else iter(items):
         began = time.perf_counter()
         record: dict[str, Any] = {key: str(item)}
+        message = ""
         try:
             facts = work(item)
+            seconds = round(time.perf_counter() - began, 3)
+            done = {**record, "status": "ok", "seconds": seconds, **facts}
+            line = _json(done) if as_json else _after(item, " -> ", say(facts))
         except _NOT_ITS_FAULT:
             raise
         except Exception as error:  # whatever befalls one file, the others are dealt with
             failed += 1
             message = _message(error, str(item))
             record |= {"status": "failed", "error": type(error).__name__, "message": message}
-            text = ""
-        else:
-            message, text = "", say(facts)
-            record |= {"status": "ok", "seconds": round(time.perf_counter() - began, 3), **facts}
+            line = _json(record) if as_json else ""
         with _above_the_bar():
             if message:
-                click.echo(f"{click.format_filename(str(item))}: {message}", err=True)
-            if as_json:
-                click.echo(json.dumps(record, ensure_ascii=True, allow_nan=False))
-            elif text:
-                click.echo(f"{click.format_filename(str(item))} -> {text}")
+                click.echo(_after(item, ": ", message), err=True)
+            if line:
+                click.echo(line)
     if failed and len(items) > 1:
         click.echo(f"{failed} of {len(items)} failed", err=True)
     if failed:
         raise click.exceptions.Exit(1)
+
+
+def printable(text: str) -> str:
+    """Escape what a name could do to a terminal; a new line is one where the text is ours."""
+    return "".join(
+        letter if letter.isprintable() else letter.encode("unicode_escape").decode("ascii")
+        for letter in text
+    )
+
+
+def _after(item: object, mark: str, text: str) -> str:
+    """Put the name of an item before a text of one or more lines, or nothing before nothing."""
+    lines = "\n".join(map(printable, text.splitlines()))
+    return f"{printable(str(item))}{mark}{lines}" if text else ""
+
+
+def _json(record: Facts) -> str:
+    return json.dumps(record, allow_nan=False)
 
 
 def _message(error: Exception, name: str) -> str:

@@ -11,6 +11,7 @@ from gipkg.cli._batch import Facts, counted, for_each, joined
 from gipkg.cli._inputs import read_map, repairs
 from gipkg.cli._options import files_argument, json_option
 from gipkg.cli._plugins import assigned, build, method_option, parameter_option, resolve
+from gipkg.errors import UnsupportedMesh
 
 
 @click.command()
@@ -30,15 +31,21 @@ def command(
     parametrizer = build("parametrizer", name, assigned(parameters, [name])[name])
 
     def work(path: Path) -> Facts:
+        import numpy as np
+
         from gipkg.evaluation.distortion import distortion
+        from gipkg.surfaces.validation import face_areas
 
         spherical_map, facts = read_map(path, parametrizer)
+        mesh = spherical_map.mesh
+        if not face_areas(np.asarray(mesh.vertices), np.asarray(mesh.faces)).all():
+            raise UnsupportedMesh(
+                f"{path}: faces of its mesh have no area, so that nothing can be said of areas; "
+                "gipkg prepare resolves them"
+            )
         measured = distortion(spherical_map)
-        numbers = {field.name: getattr(measured, field.name) for field in fields(measured)}
-        return {
-            **facts,
-            **{key: value for key, value in numbers.items() if isinstance(value, int | float)},
-        }
+        values = {field.name: getattr(measured, field.name) for field in fields(measured)}
+        return {**facts, **{key: x for key, x in values.items() if isinstance(x, int | float)}}
 
     for_each("distort", files, work, say=_say, as_json=as_json)
 

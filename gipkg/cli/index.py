@@ -50,7 +50,8 @@ def command(
 ) -> None:
     """Index the meshes in a folder and below by what a trained network makes of them.
 
-    Run again, it goes on where it was stopped, and takes in what is new or has changed.
+    Run again, it goes on where it was stopped, and takes in what is new or has changed. Where the
+    network learned from shapes that stand upright, the meshes have to stand as those did.
     """
     require("learn", "torch")
     from gipkg.search.index import mesh_files

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from gipkg.cli._batch import Facts, for_each, plan, require_absent
+from gipkg.cli._batch import Facts, for_each, plan, printable, require_absent
 from gipkg.cli._extras import require
 from gipkg.cli._options import allow_option, files_argument, force_option, json_option
 
@@ -94,6 +94,6 @@ def _caption(number: int, distance: float) -> str:
 def _say(facts: Facts) -> str:
     lines = [f"looks like {facts['class']}; nearest:"]
     for number, hit in enumerate(facts["hits"], start=1):
-        name = click.format_filename(hit["name"])
+        name = printable(hit["name"])
         lines.append(f"{number:4}  {hit['distance']:.4f}  {name} ({hit['label']})")
     return "\n".join(lines)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
 
+import click
 import pytest
 import trimesh
 
@@ -49,6 +51,27 @@ def test_json_is_one_object_a_file_and_nothing_else(tmp_path: Path) -> None:
     assert set(failed) == {"file", "status", "error", "message"}
     assert failed["error"] == "MeshFormatError"
     assert "empty" in failed["message"]
+
+
+def test_a_name_does_nothing_to_the_terminal(tmp_path: Path) -> None:
+    files = write(tmp_path, "a\x1b[31m.off", "b\n.off")
+    files[1].write_text("OFF")
+    result = run("prepare", *files, "-o", tmp_path / "out")
+    assert "a\\x1b[31m.off -> " in result.stdout
+    assert "b\\n.off: " in result.stderr
+    assert "\x1b" not in result.output
+
+
+def test_a_figure_that_json_cannot_hold_fails_that_file_alone(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    figures = {"a": 1.0, "b": float("nan"), "c": 2.0}
+    with pytest.raises(click.exceptions.Exit):
+        _batch.for_each(
+            "test", [*figures], lambda name: {"x": figures[name]}, say=str, as_json=True
+        )
+    said = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [record["status"] for record in said] == ["ok", "failed", "ok"]
 
 
 def test_nothing_is_overwritten_unless_forced(tmp_path: Path) -> None:

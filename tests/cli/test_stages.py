@@ -12,7 +12,7 @@ import trimesh
 import gipkg
 from gipkg.evaluation.surface_distance import surface_distance
 from gipkg.formats.images import read_image
-from gipkg.formats.maps import read_map
+from gipkg.formats.maps import read_map, write_map
 from gipkg.formats.reading import load_mesh
 from tests.cli.commands import records, run, run_well
 
@@ -89,6 +89,15 @@ def test_distort_gives_the_librarys_figures(mesh_file: Path, tmp_path: Path) -> 
     assert {key: of_map[key] for key in expected} == expected
     assert {key: of_mesh[key] for key in expected} == expected
     assert of_mesh["prepared"] == []
+
+
+def test_a_map_of_a_mesh_with_flat_faces_has_no_distortion(mesh_file: Path, tmp_path: Path) -> None:
+    known = gipkg.parametrize(load_mesh(mesh_file))
+    flat = trimesh.Trimesh(known.mesh.vertices * [1, 0, 0], known.mesh.faces, process=False)
+    write_map(tmp_path / "flat.npz", gipkg.SphericalMap(flat, known.sphere))
+    result = run("distort", tmp_path / "flat.npz", "--json")
+    assert result.exit_code == 1
+    assert "flat.npz: faces of its mesh have no area" in result.stderr
 
 
 def test_describe_gives_the_librarys_channels(mesh_file: Path, tmp_path: Path) -> None:
