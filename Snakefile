@@ -4,6 +4,9 @@ from pathlib import Path
 configfile: Path(workflow.basedir) / "config" / "config.yaml"
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/configuration.smk"
 include: "workflow/rules/choices.smk"
 include: "workflow/rules/common.smk"

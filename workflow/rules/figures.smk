@@ -2,7 +2,12 @@ rule figure1:
     input:
         figure_surfaces("figure1"),
     output:
-        png="results/figure1.png",
+        png=report(
+            "results/figure1.png",
+            "../report/figure1.rst",
+            category="Figures",
+            labels={"figure": "1"},
+        ),
         csv="results/figure1.csv",
         shapes="results/figure1_shapes.csv",
         provenance="results/figure1.json",
@@ -22,7 +27,12 @@ rule figure2:
     input:
         figure_surfaces("figure2"),
     output:
-        png="results/figure2.png",
+        png=report(
+            "results/figure2.png",
+            "../report/figure2.rst",
+            category="Figures",
+            labels={"figure": "2"},
+        ),
         csv="results/figure2.csv",
         provenance="results/figure2.json",
     log:
@@ -41,7 +51,12 @@ rule figure3:
     input:
         figure_surfaces("figure3"),
     output:
-        png="results/figure3.png",
+        png=report(
+            "results/figure3.png",
+            "../report/figure3.rst",
+            category="Figures",
+            labels={"figure": "3"},
+        ),
         csv="results/figure3.csv",
         provenance="results/figure3.json",
     log:
@@ -60,7 +75,12 @@ rule figure4:
     input:
         figure_surfaces("figure4"),
     output:
-        png="results/figure4.png",
+        png=report(
+            "results/figure4.png",
+            "../report/figure4.rst",
+            category="Figures",
+            labels={"figure": "4"},
+        ),
         csv="results/figure4.csv",
         provenance="results/figure4.json",
     log:
@@ -79,7 +99,12 @@ rule figure5:
     input:
         figure_surfaces("figure5"),
     output:
-        png="results/figure5.png",
+        png=report(
+            "results/figure5.png",
+            "../report/figure5.rst",
+            category="Figures",
+            labels={"figure": "5"},
+        ),
         csv="results/figure5.csv",
         provenance="results/figure5.json",
     log:
@@ -98,7 +123,12 @@ rule figure6:
     input:
         figure_surfaces("figure6"),
     output:
-        png="results/figure6.png",
+        png=report(
+            "results/figure6.png",
+            "../report/figure6.rst",
+            category="Figures",
+            labels={"figure": "6"},
+        ),
         csv="results/figure6.csv",
         provenance="results/figure6.json",
     log:
@@ -138,7 +168,12 @@ rule figure7:
             parametrizer=METHODS,
         ),
     output:
-        png="results/figure7.png",
+        png=report(
+            "results/figure7.png",
+            "../report/figure7.rst",
+            category="Figures",
+            labels={"figure": "7"},
+        ),
         csv="results/figure7.csv",
         shapes="results/figure7_shapes.csv",
         provenance="results/figure7.json",
@@ -166,7 +201,12 @@ rule precision_recall:
     input:
         drawn(evaluations),
     output:
-        png="results/{figure}.png",
+        png=report(
+            "results/{figure}.png",
+            "../report/precision_recall.rst",
+            category="Figures",
+            labels={"figure": "{figure}"},
+        ),
         csv="results/{figure}.csv",
         provenance="results/{figure}.json",
     log:

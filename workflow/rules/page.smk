@@ -28,7 +28,7 @@ rule page:
         scenes="results/page/scenes.json",
         paper=Path(workflow.basedir) / "results" / "reference" / "paper.yaml",
     output:
-        "results/index.html",
+        report("results/index.html", "../report/page.rst", category="Page"),
     log:
         "results/logs/page/page.log",
     conda:

@@ -8,7 +8,7 @@ rule score_table:
         reference=lambda wildcards: Path(workflow.basedir)
         / f"results/reference/{wildcards.table}.csv",
     output:
-        csv="results/{table}.csv",
+        csv=report("results/{table}.csv", "../report/table.rst", category="Tables"),
         seconds="results/{table}_seconds.csv",
         markdown="results/{table}.md",
         provenance="results/{table}.json",
@@ -42,7 +42,9 @@ rule table_distortion:
         surveys=expand("results/surfaces/{database}.json", database=MAPPED),
         reference=Path(workflow.basedir) / "results" / "reference" / "table_distortion.csv",
     output:
-        csv="results/table_distortion.csv",
+        csv=report(
+            "results/table_distortion.csv", "../report/table_distortion.rst", category="Tables"
+        ),
         markdown="results/table_distortion.md",
         provenance="results/table_distortion.json",
     log:
@@ -72,7 +74,11 @@ rule table_reconstruction:
             parametrizer=config["reconstruction"]["parametrizers"],
         ),
     output:
-        csv="results/table_reconstruction.csv",
+        csv=report(
+            "results/table_reconstruction.csv",
+            "../report/table_reconstruction.rst",
+            category="Tables",
+        ),
         markdown="results/table_reconstruction.md",
         provenance="results/table_reconstruction.json",
     log:
