@@ -31,13 +31,29 @@ def test_the_table_has_a_row_a_split_and_every_figure_in_its_range(smoke: Workdi
 def test_the_tables_keep_their_columns_of_one_heading_apart(smoke: Workdir) -> None:
     with (smoke.path / "results/table2.csv").open() as stream:
         (row,) = csv.DictReader(stream)
-    assert list(row)[2::4] == ["Ours accuracy mean"]
+    assert (row["database"], row["split"]) == ("tiny-furniture", "Tiny2")
+    assert list(row)[2::4] == ["SH accuracy mean", "Ours accuracy mean"]
+    # Ten classes: guessing reaches 10 %.
+    assert float(row["SH accuracy mean"]) > 30
     assert "rigid shapes" in (smoke.path / "results/table2.md").read_text().splitlines()[0]
-    for table, descriptor in (("table1", "hks"), ("table2", "principal")):
+    channels = ["gravity-angle", "smooth-principal", "topological-mask"]
+    for table, descriptors in (("table1", ["hks"]), ("table2", channels)):
         provenance = json.loads((smoke.path / f"results/{table}.json").read_text())
-        assert list(provenance["plugins"]["descriptor"]) == [descriptor]
-        trained = smoke.path / "results/learning/tiny/authalic" / descriptor
-        assert (trained / "standard/shallow/Tiny1-0.npz").exists()
+        assert list(provenance["plugins"]["descriptor"]) == descriptors
+
+
+def test_upright_shapes_have_twelve_turns_and_a_mask_of_what_closed_them(smoke: Workdir) -> None:
+    (folder,) = (smoke.path / "results/images/tiny-furniture/authalic").iterdir()
+    shards = [Shard.open(path) for path in sorted((folder / "upright").iterdir())]
+    images = {shape_id: shard[shape_id]["images"] for shard in shards for shape_id in shard}
+    assert len(images) == 40
+    assert {of_a_shape.shape for of_a_shape in images.values()} == {(12, 4, 56, 56)}
+    mask = {shape_id: of_a_shape[:, 2] for shape_id, of_a_shape in images.items()}
+    assert min(values.min() for values in mask.values()) == 0
+    assert max(values.max() for values in mask.values()) == 1
+    for of_a_shape in images.values():
+        turned = np.rot90(of_a_shape[:-3], axes=(2, 3))
+        np.testing.assert_allclose(of_a_shape[3:], turned, atol=1e-5)
 
 
 def test_what_training_took_is_said_for_every_column(smoke: Workdir) -> None:
