@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 from gipkg.compilation import compiled
 
 MOST_CORNERS = 1000
-"""The dynamic programme takes time cubic in the number of corners; no real face comes near."""
+"""Of one face. The dynamic programme takes time cubic in the number of corners."""
+
+MOST_WORK = 4 * 10**9
+"""Sum of the cubes of all faces' corners: half a minute. No real mesh comes near."""
 
 SHAPE_WEIGHT = 1e-6
 """Weight of the triangles' shape, which chooses between triangulations of equal area and
@@ -40,8 +43,10 @@ def triangulate_polygons(
     Raises
     ------
     ValueError
-        A face has more than `MOST_CORNERS` corners.
+        A face has more than `MOST_CORNERS` corners, or too many faces have many.
     """
+    if sum(len(corners) ** 3 for corners in polygons) > MOST_WORK:
+        raise ValueError("too many of its faces have many corners; export it as triangles")
     triangles = [np.zeros((0, 3), dtype=np.int64)]
     for corners in polygons:
         if len(corners) > MOST_CORNERS:
@@ -86,8 +91,12 @@ def least_area_triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
 @compiled
 def _triangle_cost(a: NDArray[np.float64], b: NDArray[np.float64], c: NDArray[np.float64]) -> float:
     """Area, and a little for a bad shape: at most a thousandth of the squared edges."""
-    ab, bc, ca = b - a, c - b, a - c
-    area = np.sqrt(np.sum(np.cross(ab, bc) ** 2)) / 2
-    edges = np.sum(ab**2) + np.sum(bc**2) + np.sum(ca**2)
+    doubled = edges = 0.0
+    for k in range(3):
+        i, j = (k + 1) % 3, (k + 2) % 3
+        normal = (b[i] - a[i]) * (c[j] - b[j]) - (b[j] - a[j]) * (c[i] - b[i])
+        doubled += normal**2
+        edges += (b[k] - a[k]) ** 2 + (c[k] - b[k]) ** 2 + (a[k] - c[k]) ** 2
+    area = np.sqrt(doubled) / 2
     shape = edges**2 / (area + 1e-3 * edges + np.finfo(np.float64).tiny)
     return float(area + SHAPE_WEIGHT * shape)

@@ -132,3 +132,11 @@ def test_files_that_are_none(tmp_path, suffix):
     path.mkdir()
     with pytest.raises(MeshFormatError, match="folder"):
         prepare(path)
+
+
+def test_faces_of_very_many_corners_are_refused_before_they_take_their_time(tmp_path):
+    path = tmp_path / "gears.off"
+    face = " ".join(map(str, [1000, *range(1000)]))
+    path.write_text("\n".join(["OFF", "1000 5 0", *["0 0 0"] * 1000, *[face] * 5]))
+    with pytest.raises(MeshFormatError, match="many corners"):
+        prepare(path)
