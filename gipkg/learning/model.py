@@ -20,7 +20,7 @@ from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.device import choose_device, reproducible
 from gipkg.learning.network import ImageNetwork
 from gipkg.learning.prediction import Prediction
-from gipkg.learning.views import Layout, Scale, fit_scale, stack
+from gipkg.learning.views import Layout, Scale, fit_scale, stack, views_of
 
 WEIGHTS = "weights/"
 """What the names of the network's own arrays begin with in a file."""
@@ -80,16 +80,16 @@ class Model:
         """
         takes = (self.channels, self.size, self.size)
 
-        def views_of(shape_id: str) -> torch.Tensor:
-            views = images[shape_id]
-            if views.shape[1:] != takes:
+        def prepared(shape_id: str) -> torch.Tensor:
+            shown = images[shape_id]
+            if shown.shape[1:] != takes:
                 raise LearningError(
-                    f"{shape_id}: images are {views.shape[1:]}, the network learned from "
+                    f"{shape_id}: images are {shown.shape[1:]}, the network learned from "
                     f"{takes} (channels, rows, columns): take the same descriptors and size"
                 )
-            return self.scale(torch.from_numpy(self.layout(views)))
+            return self.scale(views_of(shown, self.layout))
 
-        return self.classifier.predict(views_of, ids)
+        return self.classifier.predict(prepared, ids)
 
     def save(self, path: Path, about: Mapping[str, Any] | None = None) -> None:
         """Write an ``.npz`` without pickles, from which :func:`load_model` reads the model."""
@@ -124,8 +124,8 @@ def train_model(
     Parameters
     ----------
     images : mapping of shape id to (V, C, n, n) float32 array
-        The V geometry images of each shape, unpadded. Read shape by shape; those of `ids` are
-        then held in memory.
+        The V geometry images of each shape, unpadded. Those of `ids` are read twice, shape by
+        shape, and then held in memory in half precision.
     labels : mapping of shape id to class
     ids : sequence of str
         The training part; its order is part of the result. Nothing is read of other shapes.
@@ -151,10 +151,8 @@ def train_model(
     size = images[ids[0]].shape[-1]
     layout = Layout(network.margin, permutation(size, seed) if training.shuffle_pixels else None)
     with reproducible(choose_device(device), training.threads):
-        views = stack(images, ids, layout)
-        scale = fit_scale(views, jointly=training.scaling == "joint")
-        for shape in views:
-            shape.copy_(scale(shape))
+        scale = fit_scale(images, ids, layout, jointly=training.scaling == "joint")
+        views = stack(images, ids, layout, scale)
     *_, padded, channels = views.shape
     classifier = train_classifier(
         lambda classes: ImageNetwork(network, channels, padded, classes),

@@ -86,10 +86,11 @@ class ImageNetwork(ViewClassifier):
     def forward(self, images: Tensor) -> tuple[Tensor, Tensor]:
         """Return the class scores before the softmax and the signatures, a row a view or shape.
 
-        What the convolutions find in views of a shape is pooled by its maximum, as Su, Maji,
-        Kalogerakis & Learned-Miller do ("Multi-view Convolutional Neural Networks", ICCV 2015).
+        Images may be in half precision. What the convolutions find in views of a shape is pooled
+        by its maximum, as Su, Maji, Kalogerakis & Learned-Miller do ("Multi-view Convolutional
+        Neural Networks", ICCV 2015).
         """
-        found = self.convolutions(images)
+        found = self.convolutions(images.float())
         if self.together > 1:
             views = self.together if self.training else len(images)
             found = found.unflatten(0, (-1, views)).amax(1)

@@ -59,7 +59,7 @@ def batches(samples: int, batch_size: int, seed: int, start: int) -> Iterator[ND
         position += batch_size
 
 
-def views_of(
+def drawn_views(
     samples: NDArray[np.int64], views: int, together: int, rng: np.random.Generator
 ) -> NDArray[np.int64]:
     """Return the views (N, together) of N samples, `views` being those of a shape.
@@ -96,7 +96,7 @@ def train(
     ----------
     network : ViewClassifier
     views : (n, V, H, W, C) tensor
-        V views of each of n shapes, in main memory.
+        V views of each of n shapes, in main memory, of a type that the network takes.
     classes : (n,) int64 tensor
         Class of every shape, in [0, k).
     config : TrainingConfig
@@ -138,7 +138,7 @@ def train(
     saved = time.monotonic()
     for step in progress(range(start, steps), "training", done=start):
         random = np.random.SeedSequence([seed, step])
-        shown = views_of(next(order), of_a_shape, together, np.random.default_rng(random))
+        shown = drawn_views(next(order), of_a_shape, together, np.random.default_rng(random))
         targets = classes[shown[:, 0] // of_a_shape]
         images = flat[shown.ravel()].permute(0, 3, 1, 2)
         if config.mirror:

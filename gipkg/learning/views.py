@@ -54,26 +54,40 @@ class Scale:
         return ((views.double() - self.mean) / self.deviation).float()
 
 
-def stack(images: Mapping[str, NDArray[np.float32]], ids: Sequence[str], layout: Layout) -> Tensor:
-    """Read and lay out the images of shapes, one by one, as an (n, V, H, W, C) tensor."""
-    first = torch.from_numpy(np.ascontiguousarray(layout(images[ids[0]]), dtype=np.float32))
-    views = torch.empty((len(ids), *first.shape))
+def views_of(images: NDArray[np.float32], layout: Layout) -> Tensor:
+    """Lay out the images of one shape as a (V, H, W, C) float32 tensor."""
+    return torch.from_numpy(np.ascontiguousarray(layout(images), dtype=np.float32))
+
+
+def stack(
+    images: Mapping[str, NDArray[np.float32]], ids: Sequence[str], layout: Layout, scale: Scale
+) -> Tensor:
+    """Read and scale the images of shapes, one by one, as an (n, V, H, W, C) float16 tensor.
+
+    Values of mean 0 and deviation 1 lose nothing that a training would notice, and take half of
+    the memory, of which a training part needs the most.
+    """
+    first = scale(views_of(images[ids[0]], layout))
+    views = torch.empty((len(ids), *first.shape), dtype=torch.float16)
     views[0] = first
     for i, shape_id in enumerate(ids[1:], start=1):
-        views[i] = torch.from_numpy(layout(images[shape_id]))
+        views[i] = scale(views_of(images[shape_id], layout))
     return views
 
 
-def fit_scale(views: Tensor, jointly: bool) -> Scale:
-    """Give every channel of (n, V, H, W, C) views mean 0 and deviation 1; a constant one 0.
+def fit_scale(
+    images: Mapping[str, NDArray[np.float32]], ids: Sequence[str], layout: Layout, jointly: bool
+) -> Scale:
+    """Give every channel of the shapes' views mean 0 and deviation 1; a constant one 0.
 
     Jointly, all channels are taken for one and keep their proportions.
     """
-    groups = views.reshape(len(views), -1, 1 if jointly else views.shape[-1])
+    channels = 1 if jointly else images[ids[0]].shape[1]
     # Filled in place: small results kept one by one would fragment the memory of the large ones.
-    means, variances = torch.zeros((2, len(views), groups.shape[-1]), dtype=torch.float64)
-    for i, shape in enumerate(groups):
-        variances[i], means[i] = torch.var_mean(shape.double(), dim=0, correction=0)
+    means, variances = torch.zeros((2, len(ids), channels), dtype=torch.float64)
+    for i, shape_id in enumerate(ids):
+        values = views_of(images[shape_id], layout).reshape(-1, channels).double()
+        variances[i], means[i] = torch.var_mean(values, dim=0, correction=0)
     # Variance within the shapes plus variance between them, all shapes being of one size.
     deviation = (variances.mean(0) + means.var(0, correction=0)).sqrt()
     return Scale(means.mean(0), torch.where(deviation > 0, deviation, 1.0))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gipkg.learning.config import TrainingConfig
-from gipkg.learning.training import batches, learning_rate, number_of_steps, views_of
+from gipkg.learning.training import batches, drawn_views, learning_rate, number_of_steps
 
 
 def test_every_epoch_shows_every_sample_once_in_another_order() -> None:
@@ -31,11 +31,11 @@ def test_the_order_depends_on_the_seed() -> None:
 
 def test_a_sample_of_several_views_is_of_one_shape() -> None:
     samples = np.arange(10)  # of five shapes with nine views each, two samples a shape
-    shown = views_of(samples, views=9, together=4, rng=np.random.default_rng(0))
+    shown = drawn_views(samples, views=9, together=4, rng=np.random.default_rng(0))
     np.testing.assert_array_equal(shown // 9, np.tile(samples[:, None] // 2, 4))
     assert all(len(set(views)) == 4 for views in shown)
     assert len({tuple(views % 9) for views in shown}) == 10
-    alone = views_of(samples, views=9, together=1, rng=np.random.default_rng(0))
+    alone = drawn_views(samples, views=9, together=1, rng=np.random.default_rng(0))
     np.testing.assert_array_equal(alone, samples[:, None])
 
 

@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from gipkg.images import pad
-from gipkg.learning.views import Layout, fit_scale, stack
+from gipkg.learning.views import Layout, fit_scale, stack, views_of
 
 
 def images(shapes: int = 5) -> dict[str, np.ndarray]:
@@ -17,41 +17,51 @@ def images(shapes: int = 5) -> dict[str, np.ndarray]:
     }
 
 
+def scaled(raw: dict[str, np.ndarray], jointly: bool) -> torch.Tensor:
+    layout, ids = Layout(margin=1), list(raw)
+    scale = fit_scale(raw, ids, layout, jointly)
+    return torch.stack([scale(views_of(raw[i], layout)) for i in ids]).double()
+
+
 def test_views_are_the_padded_images_with_channels_last() -> None:
     raw = images()
-    views = stack(raw, ["s3", "s1"], Layout(margin=2))
-    assert views.shape == (2, 4, 12, 12, 3)
-    np.testing.assert_array_equal(views[0].permute(0, 3, 1, 2), pad(raw["s3"], 2))
-    np.testing.assert_array_equal(views[1].permute(0, 3, 1, 2), pad(raw["s1"], 2))
+    views = views_of(raw["s3"], Layout(margin=2))
+    assert (views.shape, views.dtype) == ((4, 12, 12, 3), torch.float32)
+    np.testing.assert_array_equal(views.permute(0, 3, 1, 2), pad(raw["s3"], 2))
+
+
+def test_the_views_of_a_training_part_are_scaled_in_half_precision() -> None:
+    raw, ids, layout = images(), ["s3", "s1"], Layout(margin=2)
+    scale = fit_scale(raw, ids, layout, jointly=False)
+    views = stack(raw, ids, layout, scale)
+    assert (views.shape, views.dtype) == ((2, 4, 12, 12, 3), torch.float16)
+    for found, shape_id in zip(views, ids, strict=True):
+        assert torch.equal(found, scale(views_of(raw[shape_id], layout)).half())
 
 
 def test_channels_of_any_scale_get_mean_0_and_deviation_1() -> None:
-    views = stack(images(), ["s0", "s1", "s2"], Layout(margin=1))
-    scaled = fit_scale(views, jointly=False)(views).double()
-    np.testing.assert_allclose(scaled.mean((0, 1, 2, 3)), np.zeros(3), atol=1e-6)
-    np.testing.assert_allclose(scaled.std((0, 1, 2, 3), correction=0), np.ones(3), rtol=1e-6)
+    views = scaled(images(3), jointly=False)
+    np.testing.assert_allclose(views.mean((0, 1, 2, 3)), np.zeros(3), atol=1e-6)
+    np.testing.assert_allclose(views.std((0, 1, 2, 3), correction=0), np.ones(3), rtol=1e-6)
 
 
 def test_a_constant_channel_becomes_zero() -> None:
-    views = torch.full((2, 3, 4, 4, 1), 7.0)
-    assert (fit_scale(views, jointly=False)(views) == 0).all()
+    assert (scaled({"a": np.full((3, 1, 4, 4), 7.0, np.float32)}, jointly=False) == 0).all()
 
 
 def test_jointly_scaled_channels_keep_their_proportions() -> None:
     units = np.array([1.0, 50.0], np.float32)[:, None, None]
-    raw = {i: views[:, 1:2] * units for i, views in images().items()}
-    views = stack(raw, ["s0", "s4"], Layout(margin=1))
-    scaled = fit_scale(views, jointly=True)(views).double()
-    assert scaled.mean().item() == pytest.approx(0, abs=1e-6)
-    assert scaled.std(correction=0).item() == pytest.approx(1, rel=1e-6)
-    first, second = scaled.std((0, 1, 2, 3))
+    views = scaled({i: shown[:, 1:2] * units for i, shown in images(2).items()}, jointly=True)
+    assert views.mean().item() == pytest.approx(0, abs=1e-6)
+    assert views.std(correction=0).item() == pytest.approx(1, rel=1e-6)
+    first, second = views.std((0, 1, 2, 3))
     assert second / first == pytest.approx(50, rel=1e-4)
 
 
 def test_a_shuffled_layout_keeps_the_values_and_moves_all_images_alike() -> None:
     raw = {"places": np.arange(2 * 3 * 64, dtype=np.float32).reshape(2, 3, 8, 8)}
     permutation = np.random.default_rng(0).permutation(64)
-    views = stack(raw, ["places"], Layout(0, permutation))[0].flatten(1, 2)
+    views = views_of(raw["places"], Layout(0, permutation)).flatten(1, 2)
     places = views[0, :, 0]
     assert (places != torch.arange(64)).sum() > 50
     for view in range(2):
@@ -63,6 +73,6 @@ def test_a_shuffled_layout_keeps_the_values_and_moves_all_images_alike() -> None
 def test_padding_a_mirrored_image_is_mirroring_a_padded_one() -> None:
     # The training mirrors padded views by transposing them.
     raw = images()["s0"]
-    mirrored = {"s0": raw.swapaxes(-1, -2)}
-    views = stack({"s0": raw}, ["s0"], Layout(margin=3))
-    assert torch.equal(stack(mirrored, ["s0"], Layout(margin=3)), views.transpose(2, 3))
+    layout = Layout(margin=3)
+    mirrored = views_of(raw, layout).transpose(1, 2)
+    assert torch.equal(views_of(raw.swapaxes(-1, -2), layout), mirrored)
