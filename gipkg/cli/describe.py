@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from gipkg.cli._batch import Facts, Job, convert, counted, joined, plan
-from gipkg.cli._inputs import read_surface, repairs
+from gipkg.cli._inputs import PREPARE, preparation, read_surface, repairs
 from gipkg.cli._options import files_argument, json_option, output_options
 from gipkg.cli._plugins import assigned, build, parameter_option, plugin_option, resolve
 from gipkg.formats import CHANNEL_SUFFIXES
@@ -37,18 +37,20 @@ def command(
 ) -> None:
     """Compute a descriptor at every vertex.
 
-    A mesh that is no closed genus-0 surface is repaired first, as by gipkg prepare; the rows
-    are those of the repaired mesh.
+    A mesh that is no closed genus-0 surface is repaired first, as by gipkg prepare, whose
+    parameters are -p prepare.KEY=VALUE; the rows are those of the repaired mesh.
     """
     name = resolve("descriptor", descriptor)
-    plugin = build("descriptor", name, assigned(parameters, [name])[name])
+    chosen = assigned(parameters, [name, PREPARE])
+    plugin = build("descriptor", name, chosen[name])
+    options = preparation(chosen[PREPARE])
     jobs = plan(files, output, suffix, CHANNEL_SUFFIXES)
 
     def work(job: Job) -> Facts:
         from gipkg.descriptors.operators import Operators
         from gipkg.formats.channels import write_channels
 
-        surface, facts = read_surface(job.source)
+        surface, facts = read_surface(job.source, options)
         channels = plugin.describe(surface.mesh, Operators(surface.mesh, mask=surface.mask))
         write_channels(job.target, channels, plugin.channels())
         return {"descriptor": name, "channels": list(plugin.channels()), **facts}

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from gipkg.cli._batch import Facts, counted, for_each, joined
-from gipkg.cli._inputs import read_map, repairs
+from gipkg.cli._inputs import PREPARE, preparation, read_map, repairs
 from gipkg.cli._options import files_argument, json_option
 from gipkg.cli._plugins import assigned, build, method_option, parameter_option, resolve
 from gipkg.errors import UnsupportedMesh
@@ -28,7 +28,9 @@ def command(
     surfaces are scaled to the area 4 pi; deviations are of sphere area over mesh area.
     """
     name = resolve("parametrizer", method)
-    parametrizer = build("parametrizer", name, assigned(parameters, [name])[name])
+    chosen = assigned(parameters, [name, PREPARE])
+    parametrizer = build("parametrizer", name, chosen[name])
+    options = preparation(chosen[PREPARE])
 
     def work(path: Path) -> Facts:
         import numpy as np
@@ -36,7 +38,7 @@ def command(
         from gipkg.evaluation.distortion import distortion
         from gipkg.surfaces.validation import face_areas
 
-        spherical_map, facts = read_map(path, parametrizer)
+        spherical_map, _, facts = read_map(path, parametrizer, options)
         mesh = spherical_map.mesh
         if not face_areas(np.asarray(mesh.vertices), np.asarray(mesh.faces)).all():
             raise UnsupportedMesh(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gipkg.cli._batch import Facts, Job, convert, counted, joined, plan
-from gipkg.cli._inputs import read_map, repairs
+from gipkg.cli._inputs import PREPARE, preparation, read_map, repairs
 from gipkg.cli._options import files_argument, json_option, output_options
 from gipkg.cli._plugins import (
     assigned,
@@ -66,12 +66,13 @@ def command(
     """Make geometry images of positions, or of descriptors.
 
     Of a map by gipkg parametrize, or of any mesh, which is repaired and mapped first. -p is for
-    the method, or NAME.KEY=VALUE for one of the plugins named: -p hks.times=3.
+    the method, or NAME.KEY=VALUE for a descriptor or the repair: -p hks.times=3.
     """
     name = resolve("parametrizer", method)
     shown = [resolve("descriptor", descriptor) for descriptor in descriptors]
-    chosen = assigned(parameters, [name, *shown])
+    chosen = assigned(parameters, [name, PREPARE, *shown])
     parametrizer = build("parametrizer", name, chosen[name])
+    options = preparation(chosen[PREPARE])
     plugins = [build("descriptor", descriptor, chosen[descriptor]) for descriptor in shown]
     channels = [channel for plugin in plugins for channel in plugin.channels()] or list(POSITIONS)
     jobs = plan(files, output, suffix, IMAGE_SUFFIXES)
@@ -85,9 +86,9 @@ def command(
         from gipkg.formats.images import write_image
         from gipkg.images import geometry_image
 
-        spherical_map, facts = read_map(job.source, parametrizer)
+        spherical_map, mask, facts = read_map(job.source, parametrizer, options)
         mesh = spherical_map.mesh
-        operators = Operators(mesh)
+        operators = Operators(mesh, mask=mask)
         values = [plugin.describe(mesh, operators) for plugin in plugins] or [mesh.vertices]
         image = geometry_image(spherical_map, np.hstack(values), size, sampling=sampling)
         write_image(job.target, image)

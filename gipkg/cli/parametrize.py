@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from gipkg.cli._batch import Facts, Job, convert, counted, joined, plan
-from gipkg.cli._inputs import read_surface, repairs
+from gipkg.cli._inputs import PREPARE, preparation, read_surface, repairs
 from gipkg.cli._options import files_argument, json_option, output_options
 from gipkg.cli._plugins import assigned, build, method_option, parameter_option, resolve
 from gipkg.formats import MAP_SUFFIXES
@@ -30,19 +30,21 @@ def command(
 ) -> None:
     """Map meshes to the unit sphere.
 
-    A mesh that is no closed genus-0 surface is repaired first, as by gipkg prepare. The map
-    file holds the surface and its sphere: an .npz with vertices, faces and sphere, or a .ply
-    that shows the sphere in any viewer.
+    A mesh that is no closed genus-0 surface is repaired first, as by gipkg prepare, whose
+    parameters are -p prepare.KEY=VALUE. The map file holds the surface and its sphere: an .npz
+    with vertices, faces and sphere, or a .ply that shows the sphere in any viewer.
     """
     name = resolve("parametrizer", method)
-    parametrizer = build("parametrizer", name, assigned(parameters, [name])[name])
+    chosen = assigned(parameters, [name, PREPARE])
+    parametrizer = build("parametrizer", name, chosen[name])
+    options = preparation(chosen[PREPARE])
     jobs = plan(files, output, suffix, MAP_SUFFIXES)
 
     def work(job: Job) -> Facts:
         from gipkg.api import SphericalMap
         from gipkg.formats.maps import write_map
 
-        surface, facts = read_surface(job.source)
+        surface, facts = read_surface(job.source, options)
         sphere = parametrizer.parametrize(surface.mesh)
         write_map(job.target, SphericalMap(surface.mesh, sphere))
         return {"method": name, **facts}

@@ -40,6 +40,17 @@ def test_there_and_back(
     assert surface_distance(egg, again, samples=2000).hausdorff < 0.02
 
 
+def test_the_repair_before_a_map_takes_parameters(egg: trimesh.Trimesh, tmp_path: Path) -> None:
+    trimesh.Trimesh(egg.vertices, egg.faces[40:], process=False).export(tmp_path / "open.off")
+    options = ("-p", "prepare.method=repair", "-p", "prepare.largest_hole=0.0001")
+    for command in ("parametrize", "image", "describe"):
+        target = tmp_path / command
+        assert run(command, tmp_path / "open.off", "-o", target, *options).exit_code == 1
+    assert run("distort", tmp_path / "open.off", *options).exit_code == 1
+    (record,) = records(run_well("distort", tmp_path / "open.off", "--json"))
+    assert record["prepared"]
+
+
 def test_a_mesh_that_needs_no_repair_is_written_as_it_is(
     mesh_file: Path, egg: trimesh.Trimesh, tmp_path: Path
 ) -> None:
@@ -57,7 +68,8 @@ def test_prepare_reports_what_the_library_reports(egg: trimesh.Trimesh, tmp_path
     expected = gipkg.prepare(path).report.as_dict()
     assert {key: record[key] for key in expected} == expected
     assert record["after"]["holes"] == 0
-    refused = run("prepare", path, "-o", tmp_path / "strict", "--largest-hole", "0.0001")
+    options = ("-p", "largest_hole=0.0001", "-p", "method=repair")
+    refused = run("prepare", path, "-o", tmp_path / "strict", *options)
     assert refused.exit_code == 1
     assert "hole" in refused.stderr
     assert not (tmp_path / "strict").exists()
@@ -130,6 +142,19 @@ def test_images_of_descriptors_have_their_channels_in_order(
     np.testing.assert_array_equal(read_image(tmp_path / "a.npy"), expected)
     assert record["shape"] == [3, 9, 9]
     assert record["channels"][0] == "log-mean-curvature"
+
+
+def test_an_image_of_a_mesh_knows_what_was_added_to_close_it(
+    egg: trimesh.Trimesh, tmp_path: Path
+) -> None:
+    trimesh.Trimesh(egg.vertices, egg.faces[60:], process=False).export(tmp_path / "open.off")
+    shown = ("-d", "topological-mask", "--size", "16")
+    options = ("-p", "prepare.method=repair", "-p", "prepare.largest_loss=1")
+    run_well("image", tmp_path / "open.off", "-o", tmp_path / "a.npy", *shown, *options)
+    assert np.unique(read_image(tmp_path / "a.npy")).size > 1
+    run_well("parametrize", tmp_path / "open.off", "-o", tmp_path / "a.npz", *options)
+    run_well("image", tmp_path / "a.npz", "-o", tmp_path / "b.npy", *shown)
+    assert np.unique(read_image(tmp_path / "b.npy")).size == 1
 
 
 def test_an_image_that_shows_no_positions_is_no_mesh(tmp_path: Path) -> None:
