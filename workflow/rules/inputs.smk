@@ -179,9 +179,13 @@ def drawn(of_table):
 
 
 def table_config(wildcards):
-    """Return the configuration without the sections that a table does not depend on."""
-    other = {*TABLES, "beyond", "distortion", "reconstruction", "figures"} - {wildcards.table}
-    return {key: part for key, part in config.items() if key not in other}
+    """Return the sections of the configuration that a table depends on.
+
+    What it takes of plugins and networks is said of each of them, resolved.
+    """
+    apart = ("parametrizers", "descriptors", "baselines", "networks")
+    other = {*TABLES, *apart, "beyond", "distortion", "reconstruction", "figures", "page"}
+    return {key: part for key, part in config.items() if key not in other - {wildcards.table}}
 
 
 def surface_shard(subject):
