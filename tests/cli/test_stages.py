@@ -151,10 +151,10 @@ def test_an_image_of_a_mesh_knows_what_was_added_to_close_it(
     shown = ("-d", "topological-mask", "--size", "16")
     options = ("-p", "prepare.method=repair", "-p", "prepare.largest_loss=1")
     run_well("image", tmp_path / "open.off", "-o", tmp_path / "a.npy", *shown, *options)
-    assert np.unique(read_image(tmp_path / "a.npy")).size > 1
+    assert read_image(tmp_path / "a.npy").min() < 0.01
     run_well("parametrize", tmp_path / "open.off", "-o", tmp_path / "a.npz", *options)
     run_well("image", tmp_path / "a.npz", "-o", tmp_path / "b.npy", *shown)
-    assert np.unique(read_image(tmp_path / "b.npy")).size == 1
+    assert read_image(tmp_path / "b.npy").min() > 0.99
 
 
 def test_an_image_that_shows_no_positions_is_no_mesh(tmp_path: Path) -> None:
