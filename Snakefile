@@ -26,11 +26,8 @@ include: "workflow/rules/figures.smk"
 
 rule paper:
     input:
-        expand("results/{table}.csv", table=[name for name in TABLES if TABLES[name]["databases"]]),
-        expand(
-            "results/{figure}.png",
-            figure=[name for name, table in CURVES.items() if TABLES[table]["databases"]],
-        ),
+        expand("results/{table}.csv", table=CURVES.values()),
+        expand("results/{figure}.png", figure=CURVES),
         "results/table1_beyond.csv",
         "results/table_distortion.csv",
         "results/table_reconstruction.csv",

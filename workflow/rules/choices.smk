@@ -54,7 +54,7 @@ def chosen_databases(section, suits, upright=False):
 def chosen_tables():
     """Return what the tables of scores hold: table -> columns by slug, databases and seeds."""
     tables = {}
-    for name, upright in (("table1", False), ("table2", True)):
+    for name, upright in (("table1", False), ("table2", True), ("table2_study", True)):
         databases = chosen_databases(name, protocols_of, upright)
         for database in databases:
             if not protocols_of(database):

@@ -136,6 +136,12 @@ def table_listings(wildcards):
     return expand("results/datasets/{database}/shapes.csv", database=databases)
 
 
+def table_reference(wildcards):
+    """Return the paper's own figures; a study of the settings of a table has that table's."""
+    name = wildcards.table.removesuffix("_study")
+    return Path(workflow.basedir) / "results" / "reference" / f"{name}.csv"
+
+
 def table_surveys(wildcards):
     """Return what is said of the surfaces of the databases of a table."""
     databases = TABLES[wildcards.table]["databases"]

@@ -5,8 +5,7 @@ rule score_table:
         surveys=table_surveys,
         listings=table_listings,
         timings=timings,
-        reference=lambda wildcards: Path(workflow.basedir)
-        / f"results/reference/{wildcards.table}.csv",
+        reference=table_reference,
     output:
         csv=report("results/{table}.csv", "../report/table.rst", category="Tables"),
         seconds="results/{table}_seconds.csv",
