@@ -80,7 +80,7 @@ class DatasetTags:
     source: str
     """Address of the files, or how they are generated."""
     selected: bool = False
-    """Whether its shapes are chosen out of a larger collection, so that a table has to name them."""
+    """Whether its shapes are chosen out of more, so that a table has to name them."""
     files: Mapping[str, str] = field(default_factory=dict)
     """Path under the data root -> SHA-256 of every file that is needed."""
     excluded: Mapping[str, str] = field(default_factory=dict)
