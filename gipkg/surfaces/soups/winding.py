@@ -13,6 +13,9 @@ SAMPLES = 4000
 WHOLE = 0.1
 """How near to a whole number a winding number counts as one."""
 
+BLOCK = 1_000_000
+"""Voxels that are looked at together, for the sake of memory."""
+
 CONSISTENT = 0.9
 """Least share of the samples with a whole winding number; at fewer, it decides nothing."""
 
@@ -40,15 +43,29 @@ def wound_around(vertices: NDArray[np.float64], faces: NDArray[np.int64], asked:
     (X, Y, Z) bool array
         Some of `asked`.
     """
-    import igl
-
     inside = np.zeros_like(asked)
-    places = np.argwhere(asked)
+    places = np.flatnonzero(asked)
+    if not len(places):
+        return inside
     rng = np.random.default_rng(0)
-    sample = places[rng.choice(len(places), min(SAMPLES, len(places)), replace=False)]
-    numbers = igl.fast_winding_number(vertices, faces, sample.astype(np.float64))
+    sample = rng.choice(places, min(SAMPLES, len(places)), replace=False)
+    numbers = _numbers(vertices, faces, sample, asked.shape)
     whole = np.abs(numbers - np.round(numbers)) < WHOLE
     if whole.mean() >= CONSISTENT and (np.abs(numbers) > 0.5).any():
-        numbers = igl.fast_winding_number(vertices, faces, places.astype(np.float64))
-        inside[tuple(places.T)] = np.abs(numbers) > 0.5
+        for block in np.array_split(places, len(places) // BLOCK + 1):
+            numbers = _numbers(vertices, faces, block, asked.shape)
+            inside.ravel()[block] = np.abs(numbers) > 0.5
     return inside
+
+
+def _numbers(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    places: NDArray[np.int64],
+    shape: tuple[int, ...],
+) -> NDArray[np.float64]:
+    """Return the winding numbers of voxels, by their flat indices."""
+    import igl
+
+    points = np.column_stack(np.unravel_index(places, shape)).astype(np.float64)
+    return np.asarray(igl.fast_winding_number(vertices, faces, points))

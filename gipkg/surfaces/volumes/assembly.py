@@ -29,8 +29,8 @@ BLUR = 0.7
 """Standard deviation, in voxels, of the Gaussian that says where the surface runs: the steps of
 solids that are all or nothing are gone, and little else is."""
 
-MOST_VOXELS = 400**3
-"""Voxels around the solid at the most: 30 bytes of memory each."""
+MOST_VOXELS = 320**3
+"""Voxels around the solid at the most: some 100 bytes of memory each."""
 
 FAIRING = 10
 """Rounds of smoothing of the surface, before its vertices become fewer."""
@@ -89,8 +89,8 @@ def volume_surface(
     hull = contractible_hull(filled)
     steps += _closing_steps(kept, filled, hull)
     dense, faces, owner = lattice_surface(hull, _depth(values, solid, hull, volume.level, blur))
-    kept = filled if original is None else filled & np.pad(original, MARGIN)[cut]
-    smooth = Triangles(fair(dense, faces, FAIRING), faces, kept.ravel()[owner])
+    given = filled if original is None else filled & np.pad(original, MARGIN)[cut]
+    smooth = Triangles(fair(dense, faces, FAIRING), faces, given.ravel()[owner])
     result = decimate(smooth, vertices)
     corner = np.array([side.start for side in cut]) - MARGIN
     points = (result.vertices + corner) * volume.spacing + volume.origin

@@ -246,3 +246,18 @@ def test_decimation_stays_on_the_surface_and_keeps_triangles_regular():
     quality = 4 * np.sqrt(3) * found.area_faces / (sides**2).sum(axis=(1, 2))
     assert quality.min() > 0.4
     assert (fewer.original == (fewer.vertices[:, 2] > 0))[np.abs(fewer.vertices[:, 2]) > 0.1].all()
+
+
+def test_too_many_voxels_are_refused(monkeypatch):
+    monkeypatch.setattr("gipkg.surfaces.volumes.assembly.MOST_VOXELS", 1000)
+    with pytest.raises(UnsupportedMesh, match="more than 1000; take every second"):
+        volume_surface(Volume(ball(9)))
+
+
+def test_what_is_not_original_is_masked_like_a_membrane():
+    upper = np.zeros_like(ball(9))
+    upper[:, :, 20:] = True
+    surface = volume_surface(Volume(ball(9)), vertices=800, original=upper)
+    height = surface.mesh.vertices[:, 2] - CENTRE
+    assert surface.mask[height > 1].all()
+    assert not surface.mask[height < -1].any()
