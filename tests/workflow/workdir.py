@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -70,9 +70,10 @@ class Workdir:
         self,
         config: Mapping[str, object] | None = None,
         environment: Mapping[str, str] | None = None,
+        targets: Sequence[str] = (),
     ) -> dict[str, int]:
-        """Return the jobs that a run would do: rule -> how many."""
-        done = self.run("--dry-run", config=config, environment=environment)
+        """Return the jobs that a run would do, of all or for some targets: rule -> how many."""
+        done = self.run(*targets, "--dry-run", config=config, environment=environment)
         assert done.returncode == 0, done.stdout
         listing = done.stdout.partition("Job stats:")[2].partition("\n\n")[0]
         counts = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", listing, re.M)}
