@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from gipkg.surfaces.volumes.lattice import CORNERS
 
-BAND = 3.0
-"""Distance, in voxels, up to which distances are computed; farther voxels get this one."""
+BAND = 1.5 * np.sqrt(3)
+"""Distance, in voxels, up to which distances are computed; farther voxels get this one. A lattice
+edge that leaves the solid, which is half a diagonal thick, ends at most a whole one farther out."""
 
 COARSEST = 8
 """Voxels along a side of the blocks that the search begins with; a power of two."""
