@@ -67,6 +67,7 @@ def column_note(column: Mapping[str, Any], plugins: Mapping[tuple[str, str], Plu
         if name
     ]
     if "network" in column:
+        parts.append(f"images {literal(column.get('images', 'standard'))}")
         parts.append(f"network {literal(column['network'])}")
     return f"**{column['column']}**: {'; '.join(parts)}."
 

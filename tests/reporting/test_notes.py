@@ -57,6 +57,8 @@ def test_a_column_names_its_methods() -> None:
     note = notes.column_note(learned, plugins)
     for word in ("**X**: ", "parametrizer `map` (", "descriptor `hks-raw` (", "network `n`."):
         assert word in note
+    assert "images `standard`; network" in note
+    assert "images `upright`" in notes.column_note({**learned, "images": "upright"}, plugins)
     note = notes.column_note({"column": "Y", "baseline": "dna"}, plugins)
     assert note.startswith("**Y**: baseline `dna` (")
     assert "network" not in note

@@ -116,9 +116,12 @@ def test_a_database_asked_for_by_name_and_not_to_be_had(tmp_path: Path) -> None:
 
 
 def test_the_generated_database_stands_in_where_no_real_one_is(tmp_path: Path) -> None:
-    done = Workdir(tmp_path).run("--dry-run", config={"table1": {"databases": "auto"}})
+    config = {"table1": {"databases": "auto"}, "table2": {"databases": "auto"}}
+    done = Workdir(tmp_path).run("--dry-run", config=config)
     assert "results/evaluation/table1/articulated/ours/Articulated1.json" in done.stdout
-    assert "results/evaluation/table1/shrec11" not in done.stdout
+    assert "results/evaluation/table2/furniture/ours/Furniture2.json" in done.stdout
+    for absent in ("table1/shrec11", "table1/furniture", "table2/articulated", "table2/modelnet10"):
+        assert f"results/evaluation/{absent}" not in done.stdout
 
 
 def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None:
@@ -126,6 +129,20 @@ def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None
     done = Workdir(tmp_path).run("--dry-run", config=config)
     assert "results/evaluation/table1/shrec11/ours/SHREC2.json" in done.stdout
     assert "results/evaluation/table1/articulated" not in done.stdout
+
+
+def test_real_upright_databases_have_rows_in_table_2_and_its_study(
+    tmp_path: Path, data_root: Path
+) -> None:
+    config = {"table2": {"databases": "auto"}, "data_root": str(data_root)}
+    done = Workdir(tmp_path).run("--dry-run", "results/table2.csv", config=config)
+    voxels = "modelnet10-voxels/ours/ModelNet10Voxels.json"
+    assert f"results/evaluation/table2/{voxels}" in done.stdout
+    assert "results/evaluation/table2/furniture" not in done.stdout
+    config["table2_study"] = {"databases": ["modelnet10-voxels"], "seeds": [1]}
+    done = Workdir(tmp_path).run("--dry-run", "results/table2_study.csv", config=config)
+    assert f"results/evaluation/table2_study/{voxels}" in done.stdout
+    assert "results/images/modelnet10-voxels/authalic/smooth-principal/upright/0.npz" in done.stdout
 
 
 def test_what_is_there_to_be_mapped_is_not_classified(tmp_path: Path, data_root: Path) -> None:
