@@ -31,13 +31,14 @@ def _page(kind: registry.Kind, title: str) -> str:
     refs = registry.list_plugins(kind)
     parts = [
         f"# {title}",
-        "Made of the registry, as `gipkg plugins list` and `gipkg plugins show NAME` are.",
+        "What `gipkg plugins list` and `gipkg plugins show NAME` tell, made of the registry.",
     ]
     return "\n\n".join(parts + [_entry(ref.name, registry.load(ref)) for ref in refs]) + "\n"
 
 
 def _entry(name: str, plugin: type[Plugin]) -> str:
-    lines = [f"## `{name}`", f"{_text(plugin.summary)}.", f"*{_text(plugin.citation)}*"]
+    summary = _text(plugin.summary)
+    lines = [f"## `{name}`", f"{summary[0].upper()}{summary[1:]}.", f"*{_text(plugin.citation)}*"]
     lines += [f"::: {plugin.__module__}.{plugin.__name__}\n    options:\n{_OPTIONS}"]
     promises = _promises(plugin.tags)
     if promises:
