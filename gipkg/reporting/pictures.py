@@ -22,8 +22,13 @@ _DARKEST = 0.25
 
 
 def of_mesh(mesh: trimesh.Trimesh, size: int) -> Picture:
-    """Draw a mesh, closed or not, seen along its thinnest axis: (size, size, 3)."""
-    return render_mesh(mesh, size=(size, size))
+    """Draw a mesh, closed or not, seen along its thinnest axis: (size, size, 3).
+
+    Where faces disagree about which side is outside, normals at vertices mean nothing, and every
+    face has one shade.
+    """
+    smooth = mesh.is_watertight and mesh.is_winding_consistent
+    return render_mesh(mesh, size=(size, size), smooth=smooth)
 
 
 def of_map(spherical_map: SphericalMap, size: int) -> Picture:

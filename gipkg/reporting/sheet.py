@@ -12,12 +12,10 @@ import numpy as np
 from gipkg.errors import MeshFormatError
 from gipkg.formats.reading import load_mesh
 from gipkg.reporting.figures.layout import page, panel, pixels
-from gipkg.reporting.rendering import render_mesh
+from gipkg.reporting.pictures import Picture, of_mesh
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gipkg.reporting.pictures import Picture
 
 COLUMNS = 4
 _SIDE = 1.8
@@ -55,11 +53,11 @@ def draw(meshes: Sequence[Shown]) -> Figure:
 
 
 def _picture(path: Path) -> Picture:
-    size = pixels(_SIDE, _SIDE)
+    size, _ = pixels(_SIDE, _SIDE)
     try:
-        return render_mesh(load_mesh(path), size=size)
+        return of_mesh(load_mesh(path), size)
     except MeshFormatError:
-        return np.full((*size, 3), 255, np.uint8)
+        return np.full((size, size, 3), 255, np.uint8)
 
 
 def _plain(text: str) -> str:

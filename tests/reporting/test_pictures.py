@@ -32,6 +32,15 @@ def test_a_point_has_one_colour_on_the_mesh_the_sphere_and_the_image() -> None:
     assert np.ptp(shade) < 0.1
 
 
+def test_faces_that_disagree_about_outside_are_seen_from_both_sides() -> None:
+    plate = trimesh.creation.box([1.0, 0.7, 0.01])
+    doubled = np.vstack([plate.faces, plate.faces[:, ::-1]])
+    soup = trimesh.Trimesh(plate.vertices, doubled, process=False)
+    seen, whole = middle(pictures.of_mesh(soup, 64)), middle(pictures.of_mesh(plate, 64))
+    assert seen.min() > 100
+    assert np.abs(seen - whole).max() < 30
+
+
 def test_an_image_of_positions_has_its_mesh_beside_it_and_others_a_panel_a_channel() -> None:
     sphere = icosphere(2)
     known = SphericalMap(sphere, np.asarray(sphere.vertices))
