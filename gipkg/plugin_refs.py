@@ -56,6 +56,7 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
         "lfd": "gipkg.baselines.light_field.baseline:LightField",
         "shape-google": "gipkg.baselines.shape_google:ShapeGoogle",
         "shapedna": "gipkg.baselines.shapedna:ShapeDNA",
+        "shapenets": "gipkg.baselines.shapenets.baseline:ShapeNets",
         "spherical-harmonics": "gipkg.baselines.spherical_harmonics:SphericalHarmonics",
         "voxnet": "gipkg.baselines.voxnet.baseline:VoxNet",
         "zernike": "gipkg.baselines.zernike:Zernike",

@@ -10,7 +10,10 @@ from gipkg import registry
 from gipkg.plugin_refs import BUILTINS
 from gipkg.testing import parametrize_with_checks, run_checks, suite_of
 
-NARROW = {"deeppano": {"maps": [2, 4, 4, 8], "features": 16}}
+NARROW = {
+    "deeppano": {"maps": [2, 4, 4, 8], "features": 16},
+    "shapenets": {"rotations": 2, "maps": [4, 4, 8], "widths": [16]},
+}
 """What is trained long makes the same promises with fewer units."""
 BUILT_IN = [
     registry.create(kind, name, NARROW.get(name, {}))

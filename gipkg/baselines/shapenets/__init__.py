@@ -1,0 +1,1 @@
+"""3DShapeNets: a convolutional deep belief network on solids made of voxels."""
