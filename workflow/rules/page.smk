@@ -10,7 +10,8 @@ rule scenes:
     conda:
         "../../environment.yml"
     params:
-        shapes=ON_PAGE,
+        shapes=[subject["shape"] for subject in ON_PAGE],
+        databases=[subject["database"] for subject in ON_PAGE],
         eigenpairs=config["eigenpairs"],
         plugins={
             "dataset": picked(DATASETS, [subject["database"] for subject in ON_PAGE]),
