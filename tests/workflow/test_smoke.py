@@ -231,9 +231,13 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
 
 def test_every_training_left_its_seconds_among_the_timings(smoke: Workdir) -> None:
     results = smoke.path / "results"
-    learned = [*results.glob("learning/tiny/*/*/*/*/Tiny1-?.npz")]
-    trained = [*learned, *results.glob("baselines/tiny/*/Tiny1-?.npz")]
-    assert len(trained) == 9
+    parts = (("tiny", "Tiny1", 8), ("tiny-furniture", "Tiny2", 2))
+    trained = []
+    for database, protocol, count in parts:
+        learned = [*results.glob(f"learning/{database}/*/*/*/*/{protocol}-?.npz")]
+        found = [*learned, *results.glob(f"baselines/{database}/*/{protocol}-?.npz")]
+        assert len(found) == count
+        trained += found
     for prediction in trained:
         timing = results / "benchmarks" / prediction.relative_to(results).with_suffix(".json")
         seconds = json.loads(timing.read_text())
