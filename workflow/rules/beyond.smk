@@ -1,26 +1,3 @@
-def beyond_settings():
-    """Return what the table beyond the paper compares, a row each: where its scores are, and what
-    is said of them.
-    """
-    database, protocol = BEYOND["database"], BEYOND["protocol"]
-    trained_on = {**BEYOND["few_shot"], protocol: PROTOCOLS[database][protocol]}
-    few = [("few-shot", database, name, str(count)) for name, count in trained_on.items()]
-    faults = [
-        (one["name"], faulty, protocol, f"{one['strength']:g}")
-        for faulty, one in BEYOND["perturbed"].items()
-    ]
-    return [*few, ("clean", database, protocol, ""), *faults]
-
-
-def beyond_evaluations(wildcards):
-    """Return the scores of the table beyond the paper: setting by setting, column by column."""
-    return [
-        f"results/evaluation/beyond/{database}/{column}/{protocol}.json"
-        for _, database, protocol, _ in beyond_settings()
-        for column in BEYOND["columns"]
-    ]
-
-
 rule perturb:
     input:
         surfaces=shards_of("results/surfaces/{source}/{shard}.npz"),

@@ -89,8 +89,9 @@ def train_per_class(wildcards):
 
 def splits(wildcards):
     """Return the splits of a database under one protocol, one for each seed of a table."""
-    folder = f"results/datasets/{source_of(wildcards.database)}/splits"
-    return expand(folder + "/{protocol}-{seed}.csv", seed=seeds(wildcards), allow_missing=True)
+    pattern = "results/datasets/{source}/splits/{protocol}-{seed}.csv"
+    source = source_of(wildcards.database)
+    return expand(pattern, source=source, seed=seeds(wildcards), allow_missing=True)
 
 
 def table_rows(wildcards):
@@ -219,3 +220,26 @@ def figure_params(figure):
         },
         "code": fingerprint_module(f"gipkg.reporting.figures.{figure}"),
     }
+
+
+def beyond_settings():
+    """Return what the table beyond the paper compares, a row each: where its scores are, and what
+    is said of them.
+    """
+    database, protocol = BEYOND["database"], BEYOND["protocol"]
+    trained_on = {**BEYOND["few_shot"], protocol: PROTOCOLS[database][protocol]}
+    few = [("few-shot", database, name, str(count)) for name, count in trained_on.items()]
+    faults = [
+        (one["name"], faulty, protocol, f"{one['strength']:g}")
+        for faulty, one in BEYOND["perturbed"].items()
+    ]
+    return [*few, ("clean", database, protocol, ""), *faults]
+
+
+def beyond_evaluations(wildcards):
+    """Return the scores of the table beyond the paper: setting by setting, column by column."""
+    return [
+        f"results/evaluation/beyond/{database}/{column}/{protocol}.json"
+        for _, database, protocol, _ in beyond_settings()
+        for column in BEYOND["columns"]
+    ]
