@@ -27,7 +27,10 @@ _ROUND_OFF = 1e-12
 """Below this it is not lowered further; very thin faces may end a little above."""
 _NEAR = 1e-4
 """Error from which the areas are met by Newton's method alone."""
-_ITERATIONS, _RESTORATIONS = 10, 20
+_ITERATIONS, _RESTORATIONS = (10, 40), 20
+"""At most; the second number where the areas were out of reach after the first."""
+_NUDGES, _NUDGE = 3, 0.05
+"""How often a stuck map is moved at random, and by how much of the size of a star."""
 _START_DAMPING, _LEAST_DAMPING, _MOST_DAMPING = 1e-2, 1e-9, 1e5
 _SHORTEST_STEP = 1e-2
 _SUFFICIENT = 0.1
@@ -76,19 +79,12 @@ def with_exact_vertex_areas(
         The areas were not reached without a flip.
     """
     search = _Search(energy, areas, len(sphere))
-    here = search.at(sphere)
-    for _ in range(_ITERATIONS):
-        found = search.step(here)
-        if found is None:
+    here = _closest(search, search.at(sphere), tolerance)
+    for seed in range(_NUDGES):
+        if here.error <= EXACT:
             break
-        change, here = abs(here.value - found.value), found
-        if here.error < _NEAR and change <= tolerance * here.value:
-            break
-    for _ in range(_RESTORATIONS):
-        found = None if here.error < _ROUND_OFF else search.restore(here)
-        if found is None:
-            break
-        here = found
+        nudged = search.nudged(here, seed)
+        here = min(here, _closest(search, nudged, tolerance), key=lambda one: one.error)
     if here.error > EXACT:
         raise ParametrizationError(
             f"exact vertex areas were not reached without a flip: the error stays at "
@@ -96,6 +92,37 @@ def with_exact_vertex_areas(
             "refine the mesh where it has few vertices around thin parts, or leave exact_areas off"
         )
     return here.sphere
+
+
+def _closest(search: _Search, here: _Iterate, tolerance: float) -> _Iterate:
+    """Descend to little energy near exact areas, then go to the areas; longer if that fails."""
+    there = here
+    for iterations in _ITERATIONS:
+        here = _descended(search, here, iterations, tolerance)
+        there = _restored(search, here)
+        if there.error <= EXACT:
+            break
+    return there
+
+
+def _descended(search: _Search, here: _Iterate, iterations: int, tolerance: float) -> _Iterate:
+    for _ in range(iterations):
+        found = search.step(here)
+        if found is None:
+            break
+        change, here = abs(here.value - found.value), found
+        if here.error < _NEAR and change <= tolerance * here.value:
+            break
+    return here
+
+
+def _restored(search: _Search, here: _Iterate) -> _Iterate:
+    for _ in range(_RESTORATIONS):
+        found = None if here.error < _ROUND_OFF else search.restore(here)
+        if found is None:
+            break
+        here = found
+    return here
 
 
 class _Search:
@@ -141,6 +168,23 @@ class _Search:
                 return there
             length /= 2
         return None
+
+    def nudged(self, here: _Iterate, seed: int) -> _Iterate:
+        """Move all vertices a little at random, without a flip.
+
+        Where the map has all symmetries of a regular mesh, no step changes the areas that the
+        symmetries fix, and only less symmetric maps have them right.
+        """
+        self._damping, self._price = _START_DAMPING, 0.0
+        basis = tangent_basis(here.sphere)
+        directions = np.random.default_rng(seed).standard_normal(2 * len(here.sphere))
+        lengths = np.repeat(np.sqrt(self._wanted), 2)
+        size = _NUDGE
+        while not np.isfinite(
+            (there := self.at(move(here.sphere, basis, size * lengths * directions))).value
+        ):
+            size /= 2
+        return there
 
     def _model(self, here: _Iterate) -> tuple[Any, ...]:
         basis = tangent_basis(here.sphere)
