@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import Tensor
+
+if TYPE_CHECKING:
+    from torch import Tensor
 
 _PLACES = 7, 6, 5, 4, 3, 2, 1, 0
 
@@ -28,6 +31,8 @@ def unpack(images: Tensor, size: int) -> Tensor:
     -------
     (B, 1, n, n, n) float32 tensor
     """
+    import torch
+
     places = torch.tensor(_PLACES, device=images.device).view(8, 1, 1)
     bits = (images.unsqueeze(2).int() >> places) & 1
     return bits.flatten(1, 2)[:, None, :size].float()
