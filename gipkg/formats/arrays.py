@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import zipfile
 from pathlib import Path
+from tokenize import TokenError
 from typing import IO, Any
 
 import numpy as np
@@ -51,7 +52,10 @@ def _read(stream: IO[bytes], available: int) -> NDArray[Any]:
     }
     if version not in readers:
         raise ValueError(f"version {version} of NumPy's format holds no plain numbers")
-    shape, by_columns, dtype = readers[version](stream)
+    try:
+        shape, by_columns, dtype = readers[version](stream)
+    except (SyntaxError, TokenError) as error:  # NumPy lets through what its parser says.
+        raise ValueError(f"its header cannot be read: {error}") from error
     if dtype.hasobject:
         raise ValueError("it holds Python objects, which are not read")
     size = math.prod(shape) * dtype.itemsize

@@ -95,4 +95,4 @@ def test_a_shape_that_is_not_there_is_named(smoke: Workdir, tmp_path: Path) -> N
     shapes = [{"database": "tiny", "shape": "hands-999"}]
     done = workdir.run("results/figure4.png", config={"figures": {"shapes": shapes}})
     assert done.returncode != 0
-    assert "DatasetNotFound: configuration, figures.shapes: 'hands-999'" in done.stdout
+    assert "DatasetNotFound: configuration, figures: 'hands-999' has no surface" in done.stdout

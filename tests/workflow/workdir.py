@@ -39,7 +39,8 @@ class Workdir:
         """Return the command line of a run of the smoke configuration, changed by `config`."""
         files = [str(SMOKE)]
         if config is not None:
-            changes = self.path / "changes.yaml"
+            # Tests that share a folder may ask at the same time.
+            changes = self.path / f"changes-{os.getpid()}.yaml"
             changes.write_text(yaml.safe_dump(dict(config)), encoding="utf-8")
             files.append(str(changes))
         return [

@@ -69,7 +69,8 @@ def test_remeshing_changes_the_triangles_and_not_the_surface(strength: float, se
     other = apply("remesh", ball, strength, seed)
     assert len(other.vertices) == np.ceil(strength * len(ball.vertices))
     assert topology(other) == (1, 0, 0)
-    assert not np.isin(other.vertices, ball.vertices).all(axis=1).any()
+    before = set(map(tuple, ball.vertices.tolist()))
+    assert len(before.intersection(map(tuple, other.vertices.tolist()))) < 0.05 * len(before)
     assert np.linalg.norm(other.vertices, axis=1) == pytest.approx(1, abs=0.05)
     assert other.volume == pytest.approx(ball.volume, rel=0.03)
 
