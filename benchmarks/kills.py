@@ -5,6 +5,7 @@
 Every time, the whole process group is killed (SIGKILL) at a moment drawn evenly over what an
 undisturbed run takes, and the plain command is given again in the same folder. The exit status is
 the number of times that the files did not come out equal to those of the undisturbed run.
+Commit nothing meanwhile: the provenance files name the commit.
 """
 
 from __future__ import annotations

@@ -20,7 +20,8 @@ class Authalic(Parametrizer):
     reduces the same area distortion by a flow of small explicit steps.
 
     The defaults are for learning: fast, areas of faces to a few percent. For the most exact areas
-    take ``shape_weight=1e-6, rounds=6, exact_areas=True``. Vertex areas can then be exact, since
+    take ``shape_weight=1e-6, rounds=6, exact_areas=True``; the rounds weigh all faces alike, where
+    the descent before them weighs small ones less. Vertex areas can then be exact, since
     there are V of them and 2V - 3 degrees of freedom. The 2V - 5 face areas take up all freedom,
     and on limbs with few vertices around, where they block each other, they stay a percent off.
     """

@@ -55,7 +55,8 @@ def least_distorted_map(
     tolerance : float
         Relative decrease of the energy that ends the descent, and the rounds.
     rounds : int
-        Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most.
+        Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most, and with all faces
+        weighed alike from there on.
     exact_areas : bool
         End on exact areas of all vertices.
     callback : callable, optional
