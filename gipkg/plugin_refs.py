@@ -66,8 +66,6 @@ BUILTINS: Mapping[Kind, Mapping[str, str]] = {
         "folder": "gipkg.datasets.folder:Folder",
         "furniture": "gipkg.datasets.furniture:Furniture",
         "mcgill": "gipkg.datasets.mcgill:McGill",
-        "mcgill-articulated": "gipkg.datasets.mcgill:McGillArticulated",
-        "mcgill19": "gipkg.datasets.mcgill:McGill19",
         "modelnet10": "gipkg.datasets.modelnet:ModelNet10",
         "modelnet10-voxels": "gipkg.datasets.modelnet_voxels:ModelNet10Voxels",
         "modelnet40": "gipkg.datasets.modelnet:ModelNet40",

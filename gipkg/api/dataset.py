@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
@@ -53,7 +53,7 @@ class Volume:
 
 @dataclass(frozen=True, slots=True)
 class Protocol:
-    """How a database is split into a training and a test part.
+    """Which shapes of a database take part, and how they are split into training and test part.
 
     Attributes
     ----------
@@ -62,9 +62,15 @@ class Protocol:
         between 0 and 1, such as 0.5, is a share of the class, rounded down. ``"official"`` is
         the split that the database is published with (:attr:`Shape.part`): all seeds have the
         same one, and differ in what is learned alone.
+    classes : sequence of str, optional
+        The classes that take part; by default all.
+    shapes_per_class : int, optional
+        How many shapes of each of them take part, chosen once for all seeds; by default all.
     """
 
     train_per_class: int | float | Literal["official"]
+    classes: Sequence[str] | None = None
+    shapes_per_class: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +85,6 @@ class DatasetTags:
     licence: str
     source: str
     """Address of the files, or how they are generated."""
-    selected: bool = False
-    """Whether its shapes are chosen out of more, so that a table has to name them."""
     files: Mapping[str, str] = field(default_factory=dict)
     """Path under the data root -> SHA-256 of every file that is needed."""
     excluded: Mapping[str, str] = field(default_factory=dict)
@@ -95,8 +99,8 @@ class Dataset(Plugin):
 
     tags: ClassVar[DatasetTags]
     protocols: ClassVar[Mapping[str, Protocol]]
-    """Name of the row in the paper's table (``SHREC1``) -> how it is split. There is none where
-    the shapes are not classified, but mapped."""
+    """Name of the row in the paper's table (``SHREC1``) -> what takes part and how it is split.
+    There is none where the shapes are not classified, but mapped."""
 
     @property
     def upright(self) -> Axis | None:

@@ -1,13 +1,11 @@
-"""The McGill 3D shape benchmark: solids as volumes of 128³ voxels, and three choices of them."""
+"""The McGill 3D shape benchmark: solids as volumes of 128³ voxels, and what takes part."""
 
 from __future__ import annotations
 
 import gzip
 import struct
 import zlib
-from abc import abstractmethod
-from collections import defaultdict
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
@@ -15,7 +13,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape, Volume
 from gipkg.datasets.archives import is_intact, read_members
@@ -50,10 +47,10 @@ MIXED = (
     "four",
     "tables",
 )
-"""Five articulated classes and five others; the paper does not name its own ten."""
+"""Five articulated classes and five others."""
 
 PER_CLASS = 20
-"""Shapes that are chosen of each class, as in the paper."""
+"""Shapes that take part of each of ten classes, as in the paper."""
 
 DUPLICATES: Mapping[str, str] = MappingProxyType(
     {
@@ -72,17 +69,36 @@ VOXELS: Mapping[int, np.dtype[Any]] = MappingProxyType({1: np.dtype("u1"), 4: np
 """Number of a type in the header -> how a voxel is stored."""
 
 
-class McGillDataset(Dataset):
-    """What the three choices share: the archive, its shapes and their volumes.
+class McGill(Dataset):
+    """All 19 classes of the benchmark, 452 distinct volumes.
 
     Members of the archive are ``{articulated,non-articulated}/<class>/<name>.im.gz``; an
-    identifier is class and name, such as ``ants-b13``. Duplicates are left out.
+    identifier is class and name, such as ``ants-b13``. Duplicates are left out. The paper takes
+    20 shapes of each of ten classes and names none of them: here they are a mix of articulated
+    classes and others, and a second time the articulated ones alone.
     """
 
+    summary: ClassVar[str] = "McGill benchmark: 452 volumes in 19 classes, articulated and not"
     citation: ClassVar[str] = (
         "K. Siddiqi, J. Zhang, D. Macrini, A. Shokoufandeh, S. Bouix, S. Dickinson, Retrieving "
         "Articulated 3-D Models Using Medial Surfaces, Machine Vision and Applications 19(4) 2008"
     )
+    tags: ClassVar[DatasetTags] = DatasetTags(
+        generated=False,
+        shapes=452,
+        classes=19,
+        licence="none stated",
+        source=HOME,
+        files={ARCHIVE: SHA256},
+        excluded={one: f"the same as {other}" for one, other in DUPLICATES.items()},
+    )
+    protocols: ClassVar[Mapping[str, Protocol]] = {
+        "McGill1": Protocol(10, MIXED, PER_CLASS),
+        "McGill2": Protocol(16, MIXED, PER_CLASS),
+        "McGillArticulated1": Protocol(10, ARTICULATED, PER_CLASS),
+        "McGillArticulated2": Protocol(16, ARTICULATED, PER_CLASS),
+        "McGill19": Protocol(0.5),
+    }
 
     def available(self, root: Path) -> bool:
         """Whether the archive lies under the data root, with the right checksum."""
@@ -104,22 +120,10 @@ class McGillDataset(Dataset):
                 f"SHA-256 {SHA256} in {path.parent}"
             )
 
-    @abstractmethod
-    def _choose(self, label: str, ids: list[str]) -> list[str]:
-        """Return the identifiers, out of the sorted ones of a class, that belong here."""
-
     def shapes(self, root: Path) -> tuple[Shape, ...]:
-        """All chosen shapes; the class is the name of the folder."""
-        classes: dict[str, list[str]] = defaultdict(list)
-        for shape_id in sorted(_members(root)):
-            if shape_id not in DUPLICATES:
-                classes[shape_id.partition("-")[0]].append(shape_id)
-        chosen = [
-            Shape(shape_id, label)
-            for label, ids in classes.items()
-            for shape_id in self._choose(label, ids)
-        ]
-        return tuple(sorted(chosen, key=lambda shape: shape.id))
+        """All distinct shapes; the class is the name of the folder."""
+        distinct = sorted(_members(root).keys() - DUPLICATES.keys())
+        return tuple(Shape(shape_id, shape_id.partition("-")[0]) for shape_id in distinct)
 
     def load(self, root: Path, shape_id: str) -> Volume:
         """Read one volume, 1 inside and 0 outside.
@@ -139,70 +143,6 @@ class McGillDataset(Dataset):
             return Volume(_read_voxels(gzip.decompress(content)))
         except (OSError, EOFError, zlib.error, struct.error, ValueError, KeyError) as error:
             raise MeshFormatError(root / ARCHIVE / member, f"not a volume ({error!r})") from error
-
-
-class McGillChoice(McGillDataset):
-    """Twenty shapes of each of some classes, chosen by a seed."""
-
-    classes: ClassVar[tuple[str, ...]]
-
-    seed: int = Field(0, ge=0, description="Seed of the choice of 20 shapes a class.")
-
-    def _choose(self, label: str, ids: list[str]) -> list[str]:
-        if label not in self.classes:
-            return []
-        rng = np.random.default_rng([self.seed, zlib.crc32(label.encode())])
-        chosen: list[str] = rng.permutation(ids)[:PER_CLASS].tolist()
-        return chosen
-
-
-def _tags(shapes: int, classes: int, duplicates: Collection[str], *, selected: bool) -> DatasetTags:
-    return DatasetTags(
-        generated=False,
-        shapes=shapes,
-        classes=classes,
-        selected=selected,
-        licence="none stated",
-        source=HOME,
-        files={ARCHIVE: SHA256},
-        excluded={one: f"the same as {DUPLICATES[one]}" for one in duplicates},
-    )
-
-
-class McGill(McGillChoice):
-    """Ten classes, five of them articulated, of 20 shapes each: a mix as in the paper."""
-
-    summary: ClassVar[str] = "McGill benchmark: 10 classes, articulated and not, x 20 volumes"
-    tags: ClassVar[DatasetTags] = _tags(
-        PER_CLASS * len(MIXED), len(MIXED), ("four-b7", "tables-b14"), selected=True
-    )
-    protocols: ClassVar[Mapping[str, Protocol]] = {"McGill1": Protocol(10), "McGill2": Protocol(16)}
-    classes: ClassVar[tuple[str, ...]] = MIXED
-
-
-class McGillArticulated(McGillChoice):
-    """The ten articulated classes, of 20 shapes each."""
-
-    summary: ClassVar[str] = "McGill benchmark: the 10 articulated classes x 20 volumes"
-    tags: ClassVar[DatasetTags] = _tags(
-        PER_CLASS * len(ARTICULATED), len(ARTICULATED), (), selected=True
-    )
-    protocols: ClassVar[Mapping[str, Protocol]] = {
-        "McGillArticulated1": Protocol(10),
-        "McGillArticulated2": Protocol(16),
-    }
-    classes: ClassVar[tuple[str, ...]] = ARTICULATED
-
-
-class McGill19(McGillDataset):
-    """All 19 classes and all 452 distinct shapes, 11 to 31 a class."""
-
-    summary: ClassVar[str] = "McGill benchmark whole: 452 volumes in 19 classes"
-    tags: ClassVar[DatasetTags] = _tags(452, 19, DUPLICATES, selected=False)
-    protocols: ClassVar[Mapping[str, Protocol]] = {"McGill19": Protocol(0.5)}
-
-    def _choose(self, label: str, ids: list[str]) -> list[str]:
-        return ids
 
 
 def _members(root: Path) -> Mapping[str, str]:

@@ -1,24 +1,21 @@
-"""Splits of a database into a training and a test part: random ones and the official one."""
+"""What of a database takes part, and its split in two: random ones and the official one."""
 
 from __future__ import annotations
 
 import zlib
 from collections import Counter, defaultdict
-from collections.abc import Sequence
-from typing import Literal
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from gipkg.api import Shape
-from gipkg.errors import SplitError
+from gipkg.api import Protocol, Shape
+from gipkg.errors import SplitError, did_you_mean
 
 Parts = tuple[tuple[str, ...], tuple[str, ...]]
 
 
-def split(
-    shapes: Sequence[Shape], train_per_class: int | float | Literal["official"], seed: int
-) -> Parts:
-    """Split a database as a protocol says; see :class:`gipkg.api.Protocol`.
+def split(shapes: Sequence[Shape], protocol: Protocol, seed: int) -> Parts:
+    """Split what takes part of a database as a protocol says.
 
     Returns
     -------
@@ -28,13 +25,14 @@ def split(
     Raises
     ------
     SplitError
-        As :func:`random_split` and :func:`official_split`; or no class has two test shapes, so
-        that none can be retrieved by another.
+        As :func:`choose`, :func:`random_split` and :func:`official_split`; or no class has two
+        test shapes, so that none can be retrieved by another.
     """
-    if train_per_class == "official":
+    shapes = choose(shapes, protocol)
+    if protocol.train_per_class == "official":
         train, test = official_split(shapes)
     else:
-        train, test = random_split(shapes, train_per_class, seed)
+        train, test = random_split(shapes, protocol.train_per_class, seed)
     tested = frozenset(test)
     sizes = Counter(shape.label for shape in shapes if shape.id in tested)
     if max(sizes.values()) < 2:
@@ -43,6 +41,36 @@ def split(
             "train, or use larger classes"
         )
     return train, test
+
+
+def choose(shapes: Sequence[Shape], protocol: Protocol) -> tuple[Shape, ...]:
+    """Return the shapes that take part, in the order given.
+
+    Like a random split, the choice depends on the identifiers and the classes alone, and every
+    class draws by itself.
+
+    Raises
+    ------
+    SplitError
+        The database lacks a class of the protocol, or a class has too few shapes.
+    """
+    members = _by_class(shapes)
+    for label in protocol.classes or ():
+        if label not in members:
+            raise SplitError(
+                f"there is no class {label!r}{did_you_mean(label, members)} "
+                f"({', '.join(sorted(members))})"
+            )
+    chosen: set[str] = set()
+    for label in protocol.classes or members:
+        ids, count = members[label], protocol.shapes_per_class
+        if count is not None and len(ids) < count:
+            raise SplitError(
+                f"class {label!r} has {len(ids)} shapes, of which {count} would take part; change "
+                "shapes_per_class, or leave the class out"
+            )
+        chosen.update(_shuffled(label, ids, seed=0)[:count])
+    return tuple(shape for shape in shapes if shape.id in chosen)
 
 
 def official_split(shapes: Sequence[Shape]) -> Parts:
@@ -101,21 +129,16 @@ def random_split(shapes: Sequence[Shape], train_per_class: int | float, seed: in
         A class would have no training or no test shape, or `train_per_class` is neither a
         number of shapes nor a share.
     """
-    members: dict[str, list[str]] = defaultdict(list)
-    for shape in shapes:
-        members[shape.label].append(shape.id)
-
     train: list[str] = []
     test: list[str] = []
-    for label, ids in members.items():
+    for label, ids in _by_class(shapes).items():
         count = training_count(train_per_class, len(ids))
         if not 0 < count < len(ids):
             raise SplitError(
                 f"class {label!r} has {len(ids)} shapes, of which {count} would train: at least "
                 "one must train and one test; change train_per_class, or use larger classes"
             )
-        rng = np.random.default_rng([seed, zlib.crc32(label.encode())])
-        shuffled = rng.permutation(sorted(ids)).tolist()
+        shuffled = _shuffled(label, ids, seed)
         train += shuffled[:count]
         test += shuffled[count:]
     return tuple(sorted(train)), tuple(sorted(test))
@@ -137,3 +160,16 @@ def training_count(train_per_class: int | float, size: int) -> int:
         f"train_per_class is {train_per_class}: at least one shape must train; give a number of "
         "shapes, or a share between 0 and 1"
     )
+
+
+def _by_class(shapes: Iterable[Shape]) -> dict[str, list[str]]:
+    members: dict[str, list[str]] = defaultdict(list)
+    for shape in shapes:
+        members[shape.label].append(shape.id)
+    return members
+
+
+def _shuffled(label: str, ids: Iterable[str], seed: int) -> list[str]:
+    rng = np.random.default_rng([seed, zlib.crc32(label.encode())])
+    shuffled: list[str] = rng.permutation(sorted(ids)).tolist()
+    return shuffled

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gipkg.api import Dataset, Plugin, Shape
+from gipkg.api import Dataset, Plugin, Protocol, Shape
+from gipkg.datasets import choose
 from gipkg.reporting.score_table import DIGITS, METRICS, Row
 from gipkg.reporting.survey import Survey
 
@@ -35,15 +36,29 @@ def database_note(name: str, splits: Sequence[str], dataset: Dataset, survey: Su
     return note
 
 
-def selection_note(name: str, shapes: Sequence[Shape]) -> str:
-    """Name the shapes of a database that are chosen out of more, class by class."""
-    members: dict[str, list[str]] = {}
-    for shape in shapes:
-        members.setdefault(shape.label, []).append(shape.id.removeprefix(f"{shape.label}-"))
-    classes = "; ".join(
-        f"{literal(label)} {literal(', '.join(ids))}" for label, ids in members.items()
-    )
-    return f"The {len(shapes)} shapes of {literal(name)} by class: {classes}."
+def selection_notes(
+    name: str, protocols: Mapping[str, Protocol], shapes: Sequence[Shape]
+) -> list[str]:
+    """Name the shapes that take part where not all do, class by class, once for each choice.
+
+    Parameters
+    ----------
+    name : str
+        Of the database, in the configuration.
+    protocols : mapping
+        Name -> protocol.
+    shapes : sequence of Shape
+        The whole database.
+    """
+    rows: dict[tuple[Shape, ...], list[str]] = {}
+    for row, protocol in protocols.items():
+        rows.setdefault(choose(shapes, protocol), []).append(row)
+    return [
+        f"**{', '.join(alike)}**: {len(chosen)} of the {len(shapes)} shapes of {literal(name)} "
+        f"take part: {_by_class(chosen)}."
+        for chosen, alike in rows.items()
+        if len(chosen) < len(shapes)
+    ]
 
 
 def column_note(column: Mapping[str, Any], plugins: Mapping[tuple[str, str], Plugin]) -> str:
@@ -126,6 +141,15 @@ def literal(text: str) -> str:
 def _listing(failures: Mapping[str, str]) -> str:
     return "; ".join(
         f"{literal(shape_id)} ({literal(reason)})" for shape_id, reason in sorted(failures.items())
+    )
+
+
+def _by_class(shapes: Sequence[Shape]) -> str:
+    members: dict[str, list[str]] = {}
+    for shape in shapes:
+        members.setdefault(shape.label, []).append(shape.id.removeprefix(f"{shape.label}-"))
+    return "; ".join(
+        f"{literal(label)} {literal(', '.join(ids))}" for label, ids in members.items()
     )
 
 

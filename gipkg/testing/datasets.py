@@ -16,7 +16,7 @@ from unittest.mock import patch
 import numpy as np
 
 from gipkg.api import Dataset, Shape, Volume
-from gipkg.datasets.splits import split, training_count
+from gipkg.datasets.splits import choose, split, training_count
 from gipkg.errors import DatasetNotFound
 from gipkg.testing.common import add_common_checks
 from gipkg.testing.suite import Suite, require
@@ -56,8 +56,8 @@ def names_its_protocols(plugin: Dataset) -> None:
     tags = plugin.tags
     if tags.shapes is None or tags.classes is None:
         return
-    per_class = tags.shapes // tags.classes
     for name, protocol in plugin.protocols.items():
+        per_class = protocol.shapes_per_class or tags.shapes // tags.classes
         if protocol.train_per_class != "official":
             train = training_count(protocol.train_per_class, per_class)
             require(0 < train < per_class, f"{name}: {protocol} of {per_class}")
@@ -112,17 +112,17 @@ def counts_what_its_tags_say(plugin: Dataset, root: Path) -> None:
 
 @SUITE.check(needs_data=True)
 def splits_by_its_protocols(plugin: Dataset, root: Path) -> None:
-    """Every protocol yields disjoint parts that make up the whole, repeatably."""
+    """Every protocol yields disjoint parts that make up all that takes part, repeatably."""
     shapes = plugin.shapes(root)
-    labels = {shape.id: shape.label for shape in shapes}
     for name, protocol in plugin.protocols.items():
-        train, test = split(shapes, protocol.train_per_class, seed=0)
+        labels = {shape.id: shape.label for shape in choose(shapes, protocol)}
+        train, test = split(shapes, protocol, seed=0)
         require(train and test, f"{name}: a part is empty")
         require(not set(train) & set(test), f"{name}: the parts overlap")
         require(sorted((*train, *test)) == sorted(labels), f"{name}: the parts are not the whole")
         untrained = set(labels.values()) - {labels[shape_id] for shape_id in train}
         require(not untrained, f"{name}: nothing trains of {untrained}")
-        again = split(tuple(reversed(shapes)), protocol.train_per_class, seed=0)
+        again = split(tuple(reversed(shapes)), protocol, seed=0)
         require(again == (train, test), f"{name}: the split depends on the order of the listing")
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gipkg.datasets import random_split, shrec11
+from gipkg.datasets import shrec11, split
 from gipkg.datasets.shrec11 import ARCHIVE, Shrec11
 from gipkg.errors import DatasetNotFound, MeshFormatError
 from tests.datasets.tar_files import write_archive
@@ -83,7 +83,7 @@ def test_vertices_keep_the_order_of_the_file(root):
 def test_protocols_split_every_class(root):
     shapes = Shrec11().shapes(root)
     for name, sizes in {"SHREC1": (300, 300), "SHREC2": (480, 120)}.items():
-        train, test = random_split(shapes, Shrec11.protocols[name].train_per_class, seed=0)
+        train, test = split(shapes, Shrec11.protocols[name], seed=0)
         assert (len(train), len(test)) == sizes
 
 

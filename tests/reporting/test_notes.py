@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from gipkg import registry
-from gipkg.api import Shape
+from gipkg.api import Protocol, Shape
 from gipkg.reporting import notes
 from gipkg.reporting.score_table import Cell, Row
 from gipkg.reporting.survey import Survey, survey
@@ -75,10 +75,14 @@ def test_the_seeds_of_every_database_are_said() -> None:
     assert note.startswith("Random splits from the seeds 0, 1, 2 (`real`); 0 (`made`);")
 
 
-def test_chosen_shapes_are_named_class_by_class() -> None:
-    shapes = [Shape("ants-b1", "ants"), Shape("ants-7", "ants"), Shape("T3", "man|woman")]
-    note = notes.selection_note("some", shapes)
-    assert note == "The 3 shapes of `some` by class: `ants` `b1, 7`; `man¦woman` `T3`."
+def test_what_takes_part_is_named_class_by_class_where_not_all_does() -> None:
+    shapes = [Shape("ants-7", "ants"), Shape("ants-b1", "ants"), Shape("T3", "man|woman")]
+    alike = {"M1": Protocol(1, classes=("ants",)), "M2": Protocol(0.5, classes=("ants",))}
+    protocols = {**alike, "One": Protocol(1, shapes_per_class=1), "All": Protocol(1)}
+    both, one = notes.selection_notes("some", protocols, shapes)
+    assert both == "**M1, M2**: 2 of the 3 shapes of `some` take part: `ants` `7, b1`."
+    assert one.startswith("**One**: 2 of the 3 shapes of `some` take part: `ants` `")
+    assert one.endswith("; `man¦woman` `T3`.")
 
 
 def test_who_is_ahead_is_computed() -> None:

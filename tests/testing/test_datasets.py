@@ -83,6 +83,12 @@ class Partless(Balls):
     protocols: ClassVar[dict[str, Protocol]] = {"Balls": Protocol("official")}
 
 
+class Classless(Balls):
+    """Has a protocol of a class that it has not."""
+
+    protocols: ClassVar[dict[str, Protocol]] = {"Balls": Protocol(2, classes=("cube",))}
+
+
 class Absent(Balls):
     def available(self, root):
         return False
@@ -116,6 +122,7 @@ WRONG = {
     Unfiled: {"tags-are-complete", "is-absent-from-an-empty-folder"},
     Unsplittable: {"names-its-protocols", "splits-by-its-protocols"},
     Partless: {"splits-by-its-protocols"},
+    Classless: {"splits-by-its-protocols"},
     Absent: {"is-available-anywhere"},
     Littering: {"is-available-anywhere"},
     DicingBalls: {"loads-the-same-shape-twice"},

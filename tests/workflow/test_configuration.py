@@ -71,7 +71,18 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
             {"figures": {"figure2": {"parametrizers": ["authalik"]}}},
             ["figures.figure2.parametrizers", "did you mean 'authalic'"],
         ),
-        ({"beyond": {"databases": ["shrec11"]}}, ["beyond.databases", "none of them is at hand"]),
+        (
+            {"beyond": {"databases": [{"database": "shrec11"}]}},
+            ["beyond.databases", "none of the databases is at hand"],
+        ),
+        (
+            {"beyond": {"databases": [{"database": "tiny", "protocol": "Tini1"}]}},
+            ["beyond.databases", "no protocol 'Tini1'", "did you mean 'Tiny1'"],
+        ),
+        (
+            {"datasets": {"tiny": {"protocols": {"Some": {"classes": ["ants"]}}}}},
+            ["datasets.tiny.protocols.Some", "'train_per_class'"],
+        ),
         (
             {"beyond": {"robustness": {"faults": [{"perturbation": "noisy", "strengths": [1]}]}}},
             ["beyond.robustness.faults.0", "did you mean 'noise'", "shortcut"],

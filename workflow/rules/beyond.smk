@@ -62,6 +62,7 @@ rule table_beyond:
     input:
         evaluations=beyond_evaluations,
         survey=f"results/surfaces/{BEYOND['database']}.json",
+        listing=f"results/datasets/{BEYOND['database']}/shapes.csv",
     output:
         csv="results/table1_beyond.csv",
         markdown="results/table1_beyond.md",
@@ -79,6 +80,7 @@ rule table_beyond:
         seeds=BEYOND["seeds"],
         perturbed_seeds=BEYOND["perturbed_seeds"],
         settings=beyond_settings(),
+        protocols={name: asdict(one) for name, one in beyond_protocols().items()},
         plugins=plugins_of(BEYOND),
         networks=networks_of(BEYOND),
         code=[

@@ -57,31 +57,27 @@ def chosen_tables():
     for name, upright in (("table1", False), ("table2", True), ("table2_study", True)):
         databases = chosen_databases(name, protocols_of, upright)
         for database in databases:
-            if not protocols_of(database):
-                raise WorkflowError(
-                    f"configuration, {name}.databases: {database!r} has no protocol to split it "
-                    f"by; datasets.{database}.protocols can name one"
-                )
+            require_protocols(f"{name}.databases", database)
         columns, seeds = chosen_columns(name), config[name]["seeds"]
         tables[name] = {"columns": columns, "databases": databases, "seeds": seeds}
     return tables
 
 
-def chosen_subject(key, subjects):
-    """Return the database and shape that a figure shows: the first whose database is at hand."""
-    for number, subject in enumerate(subjects):
-        require_defined(f"{key}.{number}.database", subject["database"], "datasets")
-        if dataset_plugin(subject["database"]).available(Path(config["data_root"])):
-            return subject
+def first_at_hand(key, choices):
+    """Return the first of the choices, each with a database, whose database is at hand."""
+    for number, choice in enumerate(choices):
+        require_defined(f"{key}.{number}.database", choice["database"], "datasets")
+        if is_at_hand(choice["database"]):
+            return choice
     raise WorkflowError(f"configuration, {key}: none of the databases is at hand")
 
 
 def chosen_subjects():
     """Return the shapes of the figures that show one or two: figure -> database and shape."""
     chosen = config["figures"]
-    subject = chosen_subject("figures.shapes", chosen["shapes"])
+    subject = first_at_hand("figures.shapes", chosen["shapes"])
     whole, holed, upright = (
-        chosen_subject(f"figures.{figure}.{part}", chosen[figure][part])
+        first_at_hand(f"figures.{figure}.{part}", chosen[figure][part])
         for figure, part in (("figure1", "whole"), ("figure1", "holed"), ("figure6", "upright"))
     )
     alone = ("figure2", "figure3", "figure4", "figure5")
@@ -94,14 +90,16 @@ def chosen_subjects():
 
 def chosen_beyond():
     """Return what goes beyond the paper: database, columns, seeds, splits and faulty databases."""
-    section = config["beyond"]
-    for name in section["databases"]:
-        require_defined("beyond.databases", name, "datasets")
-    at_hand = (one for one in section["databases"] if is_at_hand(one) and protocols_of(one))
-    database = next(at_hand, None)
-    if database is None:
+    section, key = config["beyond"], "beyond.databases"
+    chosen = first_at_hand(key, section["databases"])
+    database = chosen["database"]
+    require_protocols(key, database)
+    protocols = protocols_of(database)
+    protocol = chosen.get("protocol", list(protocols)[-1])
+    if protocol not in protocols:
         raise WorkflowError(
-            "configuration, beyond.databases: none of them is at hand and has a protocol"
+            f"configuration, {key}: {database!r} has no protocol {protocol!r}"
+            f"{did_you_mean(protocol, protocols)} ({', '.join(protocols)})"
         )
     seeds = section["seeds"][: config["datasets"][database].get("splits")]
     faults = section["robustness"]["faults"]
@@ -117,8 +115,11 @@ def chosen_beyond():
         "databases": [database],
         "columns": chosen_columns("beyond"),
         "seeds": seeds,
-        "few_shot": {f"Train{count}": count for count in section["few_shot"]},
-        "protocol": list(protocols_of(database))[-1],
+        "few_shot": {
+            f"Train{count}": replace(protocols[protocol], train_per_class=count)
+            for count in section["few_shot"]
+        },
+        "protocol": protocol,
         "perturbed_seeds": seeds[: section["robustness"]["splits"]],
         "perturbed": {
             f"{database}~{fault['perturbation']}-{strength:g}": {
@@ -148,12 +149,7 @@ def chosen_scenes():
     for kind in ("parametrizers", "descriptors"):
         for name in config["page"][kind]:
             require_defined(f"page.{kind}", name, kind)
-    root = Path(config["data_root"])
-    return [
-        subject
-        for subject in config["page"]["shapes"]
-        if dataset_plugin(subject["database"]).available(root)
-    ]
+    return [subject for subject in config["page"]["shapes"] if is_at_hand(subject["database"])]
 
 
 def dataset_plugin(name):
@@ -162,12 +158,23 @@ def dataset_plugin(name):
 
 
 def protocols_of(database):
-    """Return how a database is split: protocol -> what trains (gipkg.api.Protocol)."""
+    """Return the protocols of a database by name, as gipkg.api.Protocol."""
     own = config["datasets"][database].get("protocols")
-    if own:
-        return own
-    protocols = dataset_plugin(database).protocols
-    return {name: protocol.train_per_class for name, protocol in protocols.items()}
+    if not own:
+        return dataset_plugin(database).protocols
+    return {
+        name: Protocol(**chosen) if isinstance(chosen, dict) else Protocol(chosen)
+        for name, chosen in own.items()
+    }
+
+
+def require_protocols(key, database):
+    """Stop where a database has no protocol to split it by."""
+    if not protocols_of(database):
+        raise WorkflowError(
+            f"configuration, {key}: {database!r} has no protocol to split it by; "
+            f"datasets.{database}.protocols can name one"
+        )
 
 
 def is_mapped_only(database):

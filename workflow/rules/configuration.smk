@@ -1,4 +1,5 @@
 import re
+from dataclasses import asdict, replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -9,6 +10,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 from gipkg import registry
+from gipkg.api import Protocol
 from gipkg.errors import PluginError, did_you_mean
 from gipkg.fingerprints import fingerprint_module
 from gipkg.images.config import ImageConfig

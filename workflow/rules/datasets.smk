@@ -26,7 +26,7 @@ rule split:
     conda:
         "../../environment.yml"
     params:
-        train_per_class=train_per_class,
+        protocol=protocol,
         code=fingerprint_module("gipkg.datasets.splits"),
     script:
         "../scripts/split.py"

@@ -81,10 +81,10 @@ def seeds(wildcards):
     return table_seeds(wildcards)[wildcards.database]
 
 
-def train_per_class(wildcards):
-    """Return what trains of each class under a protocol of a database, or beyond the paper."""
+def protocol(wildcards):
+    """Return what takes part and trains under a protocol of a database, or beyond the paper."""
     known = {**BEYOND["few_shot"], **PROTOCOLS[wildcards.database]}
-    return known[wildcards.protocol]
+    return asdict(known[wildcards.protocol])
 
 
 def splits(wildcards):
@@ -92,6 +92,14 @@ def splits(wildcards):
     pattern = "results/datasets/{source}/splits/{protocol}-{seed}.csv"
     source = source_of(wildcards.database)
     return expand(pattern, source=source, seed=seeds(wildcards), allow_missing=True)
+
+
+def table_protocols(wildcards):
+    """Return what takes part and trains in the rows of a table: database -> protocol by name."""
+    return {
+        database: {name: asdict(one) for name, one in PROTOCOLS[database].items()}
+        for database in TABLES[wildcards.table]["databases"]
+    }
 
 
 def table_rows(wildcards):
@@ -222,13 +230,21 @@ def figure_params(figure):
     }
 
 
+def beyond_protocols():
+    """Return the protocols of the table beyond the paper: those of few training shapes, and its own."""
+    own = BEYOND["protocol"]
+    return {**BEYOND["few_shot"], own: PROTOCOLS[BEYOND["database"]][own]}
+
+
 def beyond_settings():
     """Return what the table beyond the paper compares, a row each: where its scores are, and what
     is said of them.
     """
     database, protocol = BEYOND["database"], BEYOND["protocol"]
-    trained_on = {**BEYOND["few_shot"], protocol: PROTOCOLS[database][protocol]}
-    few = [("few-shot", database, name, str(count)) for name, count in trained_on.items()]
+    few = [
+        ("few-shot", database, name, str(one.train_per_class))
+        for name, one in beyond_protocols().items()
+    ]
     faults = [
         (one["name"], faulty, protocol, f"{one['strength']:g}")
         for faulty, one in BEYOND["perturbed"].items()

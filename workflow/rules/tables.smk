@@ -19,7 +19,7 @@ rule score_table:
         "../../environment.yml"
     params:
         config=table_config,
-        rows=table_rows,
+        protocols=table_protocols,
         seeds=table_seeds,
         plugins=table_plugins,
         networks=table_networks,

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from gipkg.api import Shape
+from gipkg.api import Protocol, Shape
 from gipkg.files import read_csv, write_csv, write_json, write_text
 from gipkg.reporting import notes, score_table
 from gipkg.reporting.provenance import environment
@@ -15,12 +15,16 @@ from gipkg.reporting.trainings import Training
 import job
 
 job.start(snakemake)
-config, rows = snakemake.params.config, [tuple(row) for row in snakemake.params.rows]
-seeds = snakemake.params.seeds
+config, seeds = snakemake.params.config, snakemake.params.seeds
+protocols = {
+    database: {split: Protocol(**protocol) for split, protocol in of_database.items()}
+    for database, of_database in snakemake.params.protocols.items()
+}
+rows = [(database, split) for database, splits in protocols.items() for split in splits]
 name = snakemake.wildcards.table
 columns = config[name]["columns"]
 headings = [column["column"] for column in columns]
-databases = list(dict.fromkeys(database for database, _ in rows))
+databases = list(protocols)
 plugins = job.plugins(snakemake.params.plugins)
 
 
@@ -41,18 +45,15 @@ failures = {database: {heading: next(lost) for heading in headings} for database
 text = [
     notes.database_note(
         database,
-        [split for one, split in rows if one == database],
+        list(protocols[database]),
         plugins["dataset", database],
         Survey(**surveys[database]),
     )
     for database in databases
 ]
-listings = zip(databases, snakemake.input.listings, strict=True)
-text += [
-    notes.selection_note(database, [Shape(row["id"], row["label"]) for row in read_csv(Path(path))])
-    for database, path in listings
-    if plugins["dataset", database].tags.selected
-]
+for database, path in zip(databases, snakemake.input.listings, strict=True):
+    listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(path))]
+    text += notes.selection_notes(database, protocols[database], listing)
 text += [notes.column_note(column, plugins) for column in columns]
 text += [
     notes.failure_note(heading, database, failures[database][heading])

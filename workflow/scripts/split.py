@@ -1,8 +1,8 @@
-"""Split a database into a training and a test part, at random or as it is published."""
+"""Split what takes part of a database into a training and a test part."""
 
 from pathlib import Path
 
-from gipkg.api import Shape
+from gipkg.api import Protocol, Shape
 from gipkg.datasets import split
 from gipkg.files import read_csv, write_csv
 
@@ -14,7 +14,7 @@ shapes = [
     for row in read_csv(Path(snakemake.input[0]))
 ]
 seed = int(snakemake.wildcards.seed)
-train, _ = split(shapes, snakemake.params.train_per_class, seed)
-training = frozenset(train)
-rows = [(one.id, one.label, "train" if one.id in training else "test") for one in shapes]
+train, test = split(shapes, Protocol(**snakemake.params.protocol), seed)
+part = dict.fromkeys(train, "train") | dict.fromkeys(test, "test")
+rows = [(one.id, one.label, part[one.id]) for one in shapes if one.id in part]
 write_csv(Path(snakemake.output[0]), ("id", "label", "part"), rows)

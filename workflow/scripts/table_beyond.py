@@ -4,7 +4,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from gipkg.files import write_csv, write_json, write_text
+from gipkg.api import Protocol, Shape
+from gipkg.files import read_csv, write_csv, write_json, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_beyond as table
 from gipkg.reporting.figures import beyond as figure
@@ -39,9 +40,12 @@ for setting, _, _, amount in params.settings:
     said = {"few-shot": table.FEW_SHOT, "clean": table.CLEAN}.get(setting, setting)
     rows.append(table.Row("few-shot" if few else "robustness", said, amount, len(seeds), cells))
 
-splits = list(dict.fromkeys(protocol for _, _, protocol, _ in params.settings))
+protocols = {split: Protocol(**protocol) for split, protocol in params.protocols.items()}
+splits = list(protocols)
 survey = Survey(**read(snakemake.input.survey))
+listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(snakemake.input.listing))]
 text = [notes.database_note(database, splits, plugins["dataset", database], survey)]
+text += notes.selection_notes(database, protocols, listing)
 text += [notes.column_note(column, plugins) for column in columns]
 text += [
     f"**{fault['perturbation']}**: {PERTURBATIONS[fault['perturbation']].summary}."

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gipkg.api import Volume
-from gipkg.datasets.mcgill import McGill19
+from gipkg.datasets.mcgill import McGill
 from gipkg.surfaces import prepare
 from tests.surfaces.solids import assert_genus_zero
 
@@ -22,7 +22,7 @@ from tests.surfaces.solids import assert_genus_zero
     ],
 )
 def test_mcgill_volumes_are_of_genus_zero(data_root, shape_id, components, cavities, tunnels):
-    dataset = McGill19()
+    dataset = McGill()
     if not dataset.available(data_root):
         pytest.skip(f"no McGill under {data_root}")
     volume = dataset.load(data_root, shape_id)
