@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     import trimesh
 
 
+_SPACING = 0.5
+"""Voxels between the points of a triangle whose voxels count as crossed, at most."""
+
+
 def voxelise(corners: NDArray[np.float64], size: int) -> NDArray[np.bool_]:
     """Mark the voxels whose centres the surface winds around.
 
@@ -87,11 +91,40 @@ def _heights(
     return np.clip(heights, bounds.min(axis=1), bounds.max(axis=1))
 
 
-def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: float) -> NDArray[np.bool_]:
+def crossed(corners: NDArray[np.float64], size: int) -> NDArray[np.bool_]:
+    """Mark the voxels that a surface passes through, up to clipped corners.
+
+    Parameters
+    ----------
+    corners : (F, 3, 3) float64 array
+        Corners of triangles, in voxels, as for :func:`voxelise`.
+    size : int
+        Voxels along a side.
+
+    Returns
+    -------
+    (size, size, size) bool array
+    """
+    marked = np.zeros((size, size, size), dtype=np.bool_)
+    edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)
+    pieces = np.maximum(np.ceil(edges / _SPACING), 1).astype(np.int64)
+    for count in np.unique(pieces):
+        first, second = np.array([(i, j) for i in range(count + 1) for j in range(count + 1 - i)]).T
+        weights = np.stack([first, second, count - first - second], axis=1) / count
+        points = np.einsum("pk,fkc->fpc", weights, corners[pieces == count]).reshape(-1, 3)
+        voxels = np.rint(points).astype(np.int64)
+        voxels = voxels[((voxels >= 0) & (voxels < size)).all(axis=1)]
+        marked[tuple(voxels.T)] = True
+    return marked
+
+
+def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: int) -> NDArray[np.bool_]:
     """Voxelise a mesh in equally spaced rotations about its z axis.
 
-    The bounding box of every rotation is centred in the grid. All have the same scale, by which
-    the longest side of all their boxes is `extent` voxels.
+    Solid is what the surface encloses or passes through, as in the grids that these networks were
+    made for: a part thinner than a voxel is not lost, a sheet is not empty. The bounding box of
+    every rotation is centred in the grid. All have the same scale, by which the longest side of
+    all their boxes covers `extent` voxels.
 
     Parameters
     ----------
@@ -101,7 +134,7 @@ def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: float) -
         Number R of rotations.
     size : int
         Voxels along a side, n.
-    extent : float
+    extent : int
         At most `size`.
 
     Returns
@@ -111,8 +144,9 @@ def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: float) -
     Raises
     ------
     UnsupportedMesh
-        No voxel is inside.
+        The mesh encloses no positive volume.
     """
+    _volumes(mesh)
     angles = 2 * np.pi * np.arange(turns) / turns
     cosines, sines = np.cos(angles), np.sin(angles)
     x, y, z = np.asarray(mesh.vertices, dtype=np.float64).T
@@ -126,14 +160,10 @@ def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: float) -
         axis=2,
     )
     low, high = turned.min(axis=1, keepdims=True), turned.max(axis=1, keepdims=True)
-    turned = (turned - (low + high) / 2) * (extent / (high - low).max()) + (size - 1) / 2
+    turned = (turned - (low + high) / 2) * ((extent - 1) / (high - low).max()) + (size - 1) / 2
     for solid, vertices in zip(solids, turned, strict=True):
-        solid[:] = voxelise(vertices[mesh.faces], size)
-    if not solids.any(axis=(1, 2, 3)).all():
-        raise UnsupportedMesh(
-            f"no voxel of {size}³ is inside the mesh: it must be closed and its faces must be "
-            "oriented outwards (gipkg.prepare does), and it must be thicker than a sheet"
-        )
+        corners = vertices[mesh.faces]
+        solid[:] = voxelise(corners, size) | crossed(corners, size)
     return solids
 
 
@@ -153,15 +183,7 @@ def principal_frame(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     UnsupportedMesh
         The mesh encloses no positive volume.
     """
-    corners = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces]
-    # Relative to a vertex of the mesh, so that a far-away mesh loses no digits.
-    corners = corners - corners[0, 0]
-    volumes = np.linalg.det(corners)
-    if not volumes.sum() > 0:
-        raise UnsupportedMesh(
-            "the mesh encloses no volume: it must be closed and its faces must be oriented "
-            "outwards (gipkg.prepare does)"
-        )
+    corners, volumes = _volumes(mesh)
     corners -= volumes @ corners.sum(axis=1) / (4 * volumes.sum())
     volumes = np.linalg.det(corners)
     weighted = corners * volumes[:, None, None]
@@ -173,3 +195,19 @@ def principal_frame(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     if volumes @ (one**3 + 3 * one * two + 2 * three) < 0:
         z = -z
     return np.stack([x, np.cross(z, x), z], axis=1)
+
+
+def _volumes(mesh: trimesh.Trimesh) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the corners (F, 3, 3) of a mesh and six times the volumes (F,) below its faces.
+
+    Both are relative to a vertex of the mesh, so that a far-away mesh loses no digits.
+    """
+    corners = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces]
+    corners = corners - corners[0, 0]
+    volumes = np.linalg.det(corners)
+    if not volumes.sum() > 0:
+        raise UnsupportedMesh(
+            "the mesh encloses no volume: it must be closed and its faces must be oriented "
+            "outwards (gipkg.prepare does)"
+        )
+    return corners, volumes

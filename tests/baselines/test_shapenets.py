@@ -23,7 +23,9 @@ from gipkg.learning import training
 from gipkg.learning.device import reproducible
 from gipkg.testing import meshes
 
-SMALL = ShapeNets(rotations=2, maps=(4, 8, 8), widths=(16, 12), epochs=1, learning_rate=0.01)
+SMALL = ShapeNets(
+    rotations=2, maps=(4, 8, 8), widths=(16, 12), epochs=1, learning_rate=0.01, pretraining_rate=10
+)
 
 
 def represent(baseline: ShapeNets, mesh: trimesh.Trimesh) -> np.ndarray:
