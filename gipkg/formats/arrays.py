@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import math
 import zipfile
 from pathlib import Path
@@ -35,12 +36,21 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
         It is no archive, or a checksum in it does not fit.
     """
     arrays = {}
-    with zipfile.ZipFile(path) as archive:
-        for member in archive.infolist():
-            if member.compress_type != zipfile.ZIP_STORED:
-                raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")
-            with archive.open(member) as stream:
-                arrays[member.filename.removesuffix(".npy")] = _read(stream, path.stat().st_size)
+    free = path.stat().st_size
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for member in archive.infolist():
+                if member.compress_type != zipfile.ZIP_STORED:
+                    raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")
+                with archive.open(member) as stream:
+                    array = _read(stream, free)
+                # Members that lie on each other do not make more of the file either.
+                free -= array.nbytes
+                arrays[member.filename.removesuffix(".npy")] = array
+    except OSError as error:
+        if error.errno != errno.EINVAL:
+            raise
+        raise ValueError("a member begins before the file does") from error
     return arrays
 
 

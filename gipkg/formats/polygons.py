@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,23 @@ SHAPE_WEIGHT = 1e-6
 keeps collinear corners from being joined to a triangle without area."""
 
 
-def triangulate_polygons(
-    vertices: NDArray[np.float64], polygons: Sequence[NDArray[np.int64]]
-) -> NDArray[np.int64]:
+@dataclass(frozen=True)
+class Polygons:
+    """Faces of any number of corners.
+
+    Attributes
+    ----------
+    corners : (N,) int64 array
+        Those of all faces, one after the other, from 0.
+    lengths : (F,) int64 array
+        How many each face has.
+    """
+
+    corners: NDArray[np.int64]
+    lengths: NDArray[np.int64]
+
+
+def triangulate_polygons(vertices: NDArray[np.float64], faces: Polygons) -> NDArray[np.int64]:
     """Triangulate faces of any number of corners without adding vertices.
 
     The triangulation of least area is chosen (Barequet & Sharir, Filling gaps in the boundary
@@ -32,8 +46,8 @@ def triangulate_polygons(
     Parameters
     ----------
     vertices : (V, 3) float64 array
-    polygons : sequence of int arrays
-        The corners of each face, in order; fewer than three make no triangle.
+    faces : Polygons
+        Fewer than three corners make no triangle.
 
     Returns
     -------
@@ -43,19 +57,29 @@ def triangulate_polygons(
     Raises
     ------
     ValueError
-        A face has more than `MOST_CORNERS` corners, or too many faces have many.
+        A face has more than `MOST_CORNERS` corners, or too many faces have many, or one names a
+        vertex that does not exist.
     """
-    if sum(len(corners) ** 3 for corners in polygons) > MOST_WORK:
+    corners, lengths = faces.corners, faces.lengths
+    outside = (corners < 0) | (corners >= len(vertices))
+    if outside.any():
+        of_face = np.repeat(np.arange(len(lengths)), lengths)
+        count = len(np.unique(of_face[outside]))
+        raise ValueError(f"{count} faces name a vertex that does not exist")
+    if lengths.max(initial=0) > MOST_CORNERS:
+        raise ValueError(f"a face has {lengths.max()} corners, more than {MOST_CORNERS}")
+    if (lengths**3).sum() > MOST_WORK:
         raise ValueError("too many of its faces have many corners; export it as triangles")
-    triangles = [np.zeros((0, 3), dtype=np.int64)]
-    for corners in polygons:
-        if len(corners) > MOST_CORNERS:
-            raise ValueError(f"a face has {len(corners)} corners, more than {MOST_CORNERS}")
-        if len(corners) == 3:
-            triangles.append(corners[None])
-        elif len(corners) > 3:
-            triangles.append(corners[least_area_triangles(vertices[corners])])
-    return np.concatenate(triangles)
+    made = np.maximum(lengths - 2, 0)
+    first, first_made = np.cumsum(lengths) - lengths, np.cumsum(made) - made
+    triangles = np.empty((made.sum(), 3), np.int64)
+    plain = lengths == 3
+    triangles[first_made[plain]] = corners[first[plain, None] + np.arange(3)]
+    for face in np.flatnonzero(lengths > 3):
+        own = corners[first[face] :][: lengths[face]]
+        at = first_made[face]
+        triangles[at : at + made[face]] = own[least_area_triangles(vertices[own])]
+    return triangles
 
 
 @compiled
@@ -68,6 +92,7 @@ def least_area_triangles(points: NDArray[np.float64]) -> NDArray[np.int64]:
         for i in range(n - gap):
             k = i + gap
             cost[i, k] = np.inf
+            apex[i, k] = i + 1  # a corner, even where no cost is less than infinite
             for j in range(i + 1, k):
                 total = cost[i, j] + cost[j, k] + _triangle_cost(points[i], points[j], points[k])
                 if total < cost[i, k]:

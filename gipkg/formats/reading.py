@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import stat
 from pathlib import Path
 
 import numpy as np
 import trimesh
 
 from gipkg.errors import MeshFormatError
+from gipkg.formats import MESH_SUFFIXES
 from gipkg.formats.array_faults import array_fault
+from gipkg.formats.glb import parse_glb
+from gipkg.formats.limits import LARGEST_FILE
+from gipkg.formats.obj import parse_obj
 from gipkg.formats.off import parse_off
+from gipkg.formats.ply_reading import parse_ply
+from gipkg.formats.polygons import triangulate_polygons
+from gipkg.formats.stl import parse_stl
 
 
 def load_mesh(path: Path | str) -> trimesh.Trimesh:
     """Read a mesh file without changing what it says.
 
-    All formats that trimesh reads (obj, ply, stl, glb …) and all variants of OFF. Polygons
-    are triangulated; the parts of a scene are concatenated in its coordinates.
+    The formats are ``.ply``, ``.off``, ``.obj``, ``.stl`` and ``.glb``. Polygons are
+    triangulated; the parts of a scene are concatenated in its coordinates. No other file is
+    opened, whatever this one names.
 
     Parameters
     ----------
@@ -32,13 +41,14 @@ def load_mesh(path: Path | str) -> trimesh.Trimesh:
     Raises
     ------
     MeshFormatError
-        There is no such file, or it is no triangle mesh with finite vertices.
+        There is no such file, it cannot be opened or is larger than `LARGEST_FILE`, or it is no
+        triangle mesh with finite vertices.
     """
     path = Path(path)
-    _check_file(path)
+    data = _read(path)
     if path.suffix.lower() == ".off":
-        return load_off(path.read_bytes(), path)
-    return _mesh(*_read_by_trimesh(path), path)
+        return load_off(data, path)
+    return _mesh(*_parse(data, path), path)
 
 
 def load_off(data: bytes, path: Path) -> trimesh.Trimesh:
@@ -65,23 +75,41 @@ def _mesh(vertices: np.ndarray, faces: np.ndarray, path: Path) -> trimesh.Trimes
     return trimesh.Trimesh(vertices, faces, process=False, metadata={"file_name": path.name})
 
 
-def _check_file(path: Path) -> None:
-    if path.is_dir():
-        raise MeshFormatError(path, "this is a folder; name one mesh file in it")
-    if not path.is_file():
-        raise MeshFormatError(path, "there is no such file")
-    if path.stat().st_size == 0:
-        raise MeshFormatError(path, "the file is empty")
-
-
-def _read_by_trimesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    if path.suffix.lower().lstrip(".") not in trimesh.available_formats():
-        known = ", ".join(sorted(trimesh.available_formats()))
-        raise MeshFormatError(path, f"the suffix {path.suffix!r} is none of {known}")
+def _read(path: Path) -> bytes:
     try:
-        mesh = trimesh.load(path, process=False, force="mesh")
-    except Exception as error:  # readers of damaged files raise whatever they stumble over
-        raise MeshFormatError(path, f"not readable as {path.suffix}: {error!r}") from error
-    if not isinstance(mesh, trimesh.Trimesh):
-        raise MeshFormatError(path, f"holds a {type(mesh).__name__}, not a triangle mesh")
-    return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
+        status = path.stat()
+        if stat.S_ISDIR(status.st_mode):
+            raise MeshFormatError(path, "this is a folder; name one mesh file in it")
+        if path.suffix.lower() not in MESH_SUFFIXES:
+            known = ", ".join(MESH_SUFFIXES)
+            raise MeshFormatError(path, f"the suffix {path.suffix!r} is none of {known}")
+        if not stat.S_ISREG(status.st_mode):
+            raise MeshFormatError(path, "this is no regular file")
+        if status.st_size == 0:
+            raise MeshFormatError(path, "the file is empty")
+        if status.st_size > LARGEST_FILE:
+            raise MeshFormatError(
+                path,
+                f"it has {status.st_size} bytes, more than {LARGEST_FILE}; decimate the mesh",
+            )
+        return path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError) as error:
+        raise MeshFormatError(path, "there is no such file") from error
+    except (OSError, ValueError) as error:  # a name with a zero in it is a ValueError
+        raise MeshFormatError(path, f"cannot be opened: {error}") from error
+
+
+def _parse(data: bytes, path: Path) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        match path.suffix.lower():
+            case ".glb":
+                return parse_glb(data)
+            case ".stl":
+                return parse_stl(data)
+            case ".obj":
+                vertices, faces = parse_obj(data)
+            case _:
+                vertices, faces = parse_ply(data)
+        return vertices, triangulate_polygons(vertices, faces)
+    except (ValueError, OverflowError) as error:
+        raise MeshFormatError(path, f"not readable as {path.suffix}: {error}") from error

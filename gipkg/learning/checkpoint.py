@@ -63,12 +63,13 @@ class Checkpoint:
             return 0
         try:
             state = torch.load(self.path, map_location=device, weights_only=True)
-        except (RuntimeError, UnpicklingError, EOFError, OSError) as error:
+            is_ours = state["fingerprint"] == self.fingerprint
+        except (RuntimeError, UnpicklingError, EOFError, OSError, LookupError, TypeError) as error:
             # The error's own text would advise to load the file unsafely.
             raise DamagedFileError(
                 f"{self.path}: cannot be read as a checkpoint; delete it to train afresh"
             ) from error
-        if state["fingerprint"] != self.fingerprint:
+        if not is_ours:
             return 0
         network.load_state_dict(state["network"])
         optimiser.load_state_dict(state["optimiser"])

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gipkg.errors import DamagedFileError, LearningError
 from gipkg.files import write_arrays
+from gipkg.formats.arrays import read_arrays
 from gipkg.learning.classifier import Classifier, train_classifier
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.device import choose_device, reproducible
@@ -183,20 +184,29 @@ def load_model(path: Path, device: str = "auto") -> Model:
     """
     chosen = choose_device(device)
     try:
-        with np.load(path, allow_pickle=False) as arrays:
-            header = json.loads(str(arrays["header"]))
-            config = NetworkConfig.model_validate(header["network"])
-            size, channels = header["size"], header["channels"]
-            classes = tuple(header["classes"])
-            network = ImageNetwork(config, channels, size + 2 * config.margin, len(classes))
-            names = [name for name in arrays.files if name.startswith(WEIGHTS)]
-            network.load_state_dict(
-                {name.removeprefix(WEIGHTS): torch.from_numpy(arrays[name]) for name in names}
-            )
-            layout = Layout(config.margin, arrays.get("permutation"))
-            scale = Scale(*(torch.from_numpy(arrays[name]) for name in ("mean", "deviation")))
+        arrays = read_arrays(path)
+        header = json.loads(str(arrays["header"]))
+        config = NetworkConfig.model_validate(header["network"])
+        size, channels = header["size"], header["channels"]
+        classes = tuple(header["classes"])
+        weights = {
+            name.removeprefix(WEIGHTS): torch.from_numpy(array)
+            for name, array in arrays.items()
+            if name.startswith(WEIGHTS)
+        }
+        shape = channels, size + 2 * config.margin, len(classes)
+        with torch.device("meta"):  # takes no memory, until the weights are known to be as many
+            ImageNetwork(config, *shape).load_state_dict(weights, assign=True)
+        network = ImageNetwork(config, *shape)
+        network.load_state_dict(weights)
+        layout = Layout(config.margin, arrays.get("permutation"))
+        scale = Scale(*(torch.from_numpy(arrays[name]) for name in ("mean", "deviation")))
+        about = header["about"]
     # Of numpy, json, pydantic (a ValueError) and torch in turn.
-    except (ValueError, KeyError, EOFError, zipfile.BadZipFile, RuntimeError) as error:
+    except (
+        *(ValueError, KeyError, TypeError, EOFError, RuntimeError),
+        zipfile.BadZipFile,
+    ) as error:
         raise DamagedFileError(f"{path}: not a whole trained network; train it again") from error
     classifier = Classifier(network.to(chosen), classes)
-    return Model(classifier, layout, scale, size, channels, config, header["about"])
+    return Model(classifier, layout, scale, size, channels, config, about)

@@ -14,6 +14,9 @@ from gipkg.surfaces.validation import face_areas
 THINNEST = 1e-6
 """Least enclosed volume, over area to the power 3/2 (a sphere: 0.09; a sheet of paper: 1e-4)."""
 
+FLAT = 1e-12
+"""The same for a surface that was closed when it was given: round-off."""
+
 
 def largest_part(mesh: Triangles) -> tuple[Triangles, int, float]:
     """Keep the connected part of the largest area.
@@ -67,8 +70,14 @@ def orient_consistently(mesh: Triangles) -> tuple[Triangles, int]:
     return mesh.with_faces(np.where(turn[:, None], faces[:, ::-1], faces)), int(turn.sum())
 
 
-def require_volume(mesh: Triangles) -> None:
+def require_volume(mesh: Triangles, least: float) -> None:
     """Accept a closed surface that bounds a solid.
+
+    Parameters
+    ----------
+    mesh : Triangles
+    least : float
+        Its volume, over area to the power 3/2.
 
     Raises
     ------
@@ -76,9 +85,9 @@ def require_volume(mesh: Triangles) -> None:
         It is folded flat and encloses nothing.
     """
     area = face_areas(mesh.vertices, mesh.faces).sum()
-    if abs(enclosed_volume(mesh)) < THINNEST * area**1.5:
+    if abs(enclosed_volume(mesh)) < least * area**1.5:
         raise UnsupportedMesh(
-            "closed up it is a folded sheet that encloses no volume, so it bounds no solid. "
+            "it is a folded sheet that encloses no volume, so it bounds no solid. "
             "Give the sheet thickness before preparing it"
         )
 

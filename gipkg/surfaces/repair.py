@@ -53,7 +53,9 @@ def repair(
         pipeline.count("fill holes", "holes", lambda m: holes.fill_holes(m, largest_hole))
         pipeline.remove_handles(most_handles)
         pipeline.resolve_slivers()
-        parts.require_volume(pipeline.mesh)
+        parts.require_volume(pipeline.mesh, parts.THINNEST)
+    else:
+        parts.require_volume(mesh, parts.FLAT)
     pipeline.count("turn outward", "faces", parts.orient_outward)
     return pipeline.mesh, tuple(pipeline.steps)
 

@@ -86,6 +86,20 @@ def test_concave_polygon_is_triangulated_inside(tmp_path):
     assert signed.min() > 0.05
 
 
+@pytest.mark.parametrize("wild", ["nan", "inf", "1e308", "1e-310"])
+def test_polygons_in_places_without_measure(tmp_path, wild):
+    """No triangulation is better than another there, and each is still one."""
+    path = tmp_path / "wild.off"
+    path.write_text(QUADS.replace("1 1 0\n", f"1 {wild} 0\n", 1))
+    try:
+        mesh = load_mesh(path)
+    except MeshFormatError as error:
+        assert "not finite" in str(error)
+    else:
+        assert len(mesh.faces) == 12
+        assert (np.bincount(mesh.edges_unique_inverse) == 2).all()
+
+
 @pytest.mark.parametrize(
     ("name", "content", "fault"),
     [
@@ -103,7 +117,7 @@ def test_concave_polygon_is_triangulated_inside(tmp_path):
         ("a.off", b"OFF\n3 1 0\n0 0 0\n1 0 nan\n0 1 0\n3 0 1 2", "not finite"),
         ("a.off", b"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no faces"),
         ("a.off", b"OFF BINARY\n\0\0\0\1", "before the counts"),
-        ("a.off", b"OFF\n1 1 0\n0 0 0\n3 0 0 99999999999999999999", "too large"),
+        ("a.off", b"OFF\n1 1 0\n0 0 0\n3 0 0 99999999999999999999", "too big"),
         (
             "a.off",
             b"OFF BINARY\n" + struct.pack(">3i3f3i", 1, 1, 0, 0, 0, 0, 1, 7, 0),

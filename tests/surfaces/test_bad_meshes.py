@@ -1,12 +1,14 @@
 """Whatever is given as a mesh ends in a closed surface of genus 0 or in an error with a name.
 
-``pytest tests/surfaces/test_bad_meshes.py --hypothesis-profile=long`` tries many more.
+``pytest tests/surfaces/test_bad_meshes.py --hypothesis-profile=long`` tries many more, and so does
+``python -m benchmarks.fuzz``.
 """
 
 from __future__ import annotations
 
-from functools import cache
+import os
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -16,7 +18,8 @@ from hypothesis import strategies as st
 
 from gipkg.errors import GipkgError, MeshFormatError, UnsupportedMesh
 from gipkg.surfaces import prepare
-from tests.surfaces.solids import assert_genus_zero, bare, sphere, torus
+from tests.support.mutations import damaged
+from tests.surfaces.solids import assert_genus_zero, bare, sphere
 
 FEW = settings(max_examples=max(1, settings().max_examples // 5))
 
@@ -31,6 +34,8 @@ def outcome(source: trimesh.Trimesh | Path, **options) -> str:
     assert surface.mask.shape == (len(surface.mesh.vertices),)
     return surface.report.method
 
+
+TETRAHEDRON = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
 
 NUMBERS = st.sampled_from([0.0, 1.0, -1.0, 0.5, 1e-9, 1e9, 3.0])
 WILD = st.sampled_from([1e-30, 1e30, 1e-310, 1e308, -1e308, np.nan, np.inf])
@@ -53,21 +58,12 @@ def test_any_faces_on_any_points(mesh, method, joined):
     outcome(mesh, method=method, components="joined" if joined else "largest", smallest_part=0)
 
 
-@cache
-def written(suffix: str) -> bytes:
-    content = torus(9, 6).export(file_type=suffix)
-    return content if isinstance(content, bytes) else content.encode()
-
-
 @FEW
-@given(st.sampled_from(["off", "obj", "ply", "stl"]), st.data())
-def test_any_bytes_in_a_file(tmp_path_factory, suffix, data):
-    damaged = bytearray(written(suffix)[: data.draw(st.integers(0, len(written(suffix))))])
-    for _ in range(data.draw(st.integers(0, 4))):
-        if damaged:
-            damaged[data.draw(st.integers(0, len(damaged) - 1))] = data.draw(st.integers(0, 255))
+@given(st.randoms(use_true_random=False))
+def test_any_bytes_in_a_file(tmp_path_factory, random):
+    suffix, content = damaged(random)
     path = tmp_path_factory.mktemp("bad", numbered=True) / f"mésh ☃.{suffix}"
-    path.write_bytes(damaged)
+    path.write_bytes(content)
     outcome(path)
 
 
@@ -120,6 +116,13 @@ def test_the_same_faces_a_hundred_times():
     assert outcome(bare(mesh.vertices, np.concatenate((mesh.faces, mesh.faces[:, ::-1])))) != "none"
 
 
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_triangle_or_two(count):
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5]])
+    mesh = bare(corners, np.array([[0, 1, 2], [2, 1, 3]])[:count])
+    assert outcome(mesh, components="joined") == "volume"
+
+
 @pytest.mark.parametrize("suffix", ["off", "obj", "ply", "stl", "glb"])
 def test_files_that_are_none(tmp_path, suffix):
     path = tmp_path / f"mesh.{suffix}"
@@ -132,6 +135,40 @@ def test_files_that_are_none(tmp_path, suffix):
     path.mkdir()
     with pytest.raises(MeshFormatError, match="folder"):
         prepare(path)
+
+
+def test_a_closed_surface_that_holds_nothing_is_no_solid():
+    """Two faces back to back are a sphere by their edges, and so is a flat tetrahedron."""
+    triangle = bare([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [2, 1, 0]])
+    flat = bare([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.3, 0.3, 0]], TETRAHEDRON)
+    for mesh in (triangle, flat):
+        with pytest.raises(UnsupportedMesh, match="encloses no volume"):
+            prepare(mesh, method="repair")
+        assert outcome(mesh) == "volume"
+
+
+def test_what_may_not_be_read_is_named(tmp_path, monkeypatch):
+    path = tmp_path / "mesh.off"
+    path.write_bytes(b"OFF")
+    path.chmod(0)
+    refusal = PermissionError(13, "Permission denied", str(path))  # the superuser may read it
+    monkeypatch.setattr(Path, "read_bytes", Mock(side_effect=refusal))
+    with pytest.raises(MeshFormatError, match=r"mesh\.off: cannot be opened: .*Permission denied"):
+        prepare(path)
+
+
+@pytest.mark.parametrize("name", ["no/such.off", "a\0.off", "n" * 300 + ".off"])
+def test_names_that_no_file_can_have(tmp_path, name):
+    with pytest.raises(MeshFormatError, match=r"no such file|cannot be opened"):
+        prepare(tmp_path / name)
+
+
+def test_what_is_no_file_of_bytes_is_not_read(tmp_path):
+    (tmp_path / "endless.off").symlink_to("/dev/zero")
+    os.mkfifo(tmp_path / "silent.stl")
+    for name in ("endless.off", "silent.stl"):
+        with pytest.raises(MeshFormatError, match="no regular file"):
+            prepare(tmp_path / name)
 
 
 def test_faces_of_very_many_corners_are_refused_before_they_take_their_time(tmp_path):

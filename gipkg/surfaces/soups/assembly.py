@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Literal
 
 from gipkg.errors import UnsupportedMesh
+from gipkg.formats.limits import MOST_FACES
 from gipkg.surfaces.report import Step
 from gipkg.surfaces.soups.voxelisation import voxelise
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.volumes import volume_surface
-
-MOST_FACES = 10_000_000
-"""Faces at the most: 500 bytes of memory each."""
 
 
 def soup_surface(
