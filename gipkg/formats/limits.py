@@ -1,7 +1,8 @@
 """How large a file is read: beyond that it is refused by name, not ended by the system."""
 
 LARGEST_FILE = 2**29
-"""Bytes of a mesh. Reading one takes up to fifteen times as much memory."""
+"""Bytes of a mesh. Reading one takes up to ten times as much memory; thirty, and a gigabyte at the
+most, where it is nothing but faces of a byte."""
 
 MOST_FACES = 10_000_000
 """Faces of a mesh, and vertices three times as many: as many as triangles that share none."""

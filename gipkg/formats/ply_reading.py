@@ -112,11 +112,11 @@ def _header(head: bytes) -> tuple[bool, list[_Element]]:
 def _as_binary(text: bytes, elements: list[_Element]) -> bytes:
     """Turn numbers in text into double precision, and say so in the elements."""
     with warnings.catch_warnings():
-        # What is not a number ends NumPy's parser with no more than a warning.
+        # What is not a number ends the parser of older NumPy with no more than a warning.
         warnings.simplefilter("error")
         try:
             numbers = np.fromstring(text.decode("latin-1"), np.float64, sep=" ")
-        except DeprecationWarning as error:
+        except (DeprecationWarning, ValueError) as error:
             raise ValueError("there is something else than numbers in it") from error
     for element in elements:
         element.properties = [

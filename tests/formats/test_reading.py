@@ -86,18 +86,22 @@ def test_concave_polygon_is_triangulated_inside(tmp_path):
     assert signed.min() > 0.05
 
 
-@pytest.mark.parametrize("wild", ["nan", "inf", "1e308", "1e-310"])
+@pytest.mark.parametrize("wild", ["nan", "inf"])
+def test_polygons_at_no_place_are_named(tmp_path, wild):
+    path = tmp_path / "wild.off"
+    path.write_text(QUADS.replace("1 1 0\n", f"1 {wild} 0\n", 1))
+    with pytest.raises(MeshFormatError, match="not finite"):
+        load_mesh(path)
+
+
+@pytest.mark.parametrize("wild", ["1e308", "1e-310"])
 def test_polygons_in_places_without_measure(tmp_path, wild):
     """No triangulation is better than another there, and each is still one."""
     path = tmp_path / "wild.off"
     path.write_text(QUADS.replace("1 1 0\n", f"1 {wild} 0\n", 1))
-    try:
-        mesh = load_mesh(path)
-    except MeshFormatError as error:
-        assert "not finite" in str(error)
-    else:
-        assert len(mesh.faces) == 12
-        assert (np.bincount(mesh.edges_unique_inverse) == 2).all()
+    mesh = load_mesh(path)
+    assert len(mesh.faces) == 12
+    assert (np.bincount(mesh.edges_unique_inverse) == 2).all()
 
 
 @pytest.mark.parametrize(
