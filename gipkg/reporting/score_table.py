@@ -13,6 +13,7 @@ from gipkg.files import read_csv
 TITLES = {
     "table1": "Table 1: classification and retrieval of non-rigid shapes",
     "table2": "Table 2: classification and retrieval of rigid shapes",
+    "table1_study": "Table 1: what one kind of channel does",
     "table2_study": "Table 2: what size, channels and turns of the images do",
 }
 METRICS = ("accuracy", "mAP")

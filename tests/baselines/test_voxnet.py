@@ -8,14 +8,13 @@ import torch
 import trimesh
 from numpy.testing import assert_allclose, assert_array_equal
 
-from gipkg.baselines.voxnet import baseline as baseline_module
 from gipkg.baselines.voxnet.baseline import EXTENT, SIZE, VoxNet
 from gipkg.baselines.voxnet.network import JITTER, VoxelNetwork, shifted
 from gipkg.descriptors.operators import Operators
 from gipkg.learning import training
 from gipkg.testing import meshes
 
-SMALL = VoxNet(rotations=4, epochs=1)  # Which leaves the 30 steps that any training has.
+SMALL = VoxNet(rotations=4, epochs=1, minimum_steps=30)
 
 
 def represent(baseline: VoxNet, mesh: trimesh.Trimesh) -> np.ndarray:
@@ -50,8 +49,8 @@ def test_a_killed_training_ends_as_an_undisturbed_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """With dropout, random shifts and all."""
-    monkeypatch.setattr(baseline_module, "MINIMUM_STEPS", 4)
-    expected = SMALL.predict(SHAPES, TRAIN, TEST, seed=1, device="cpu")
+    brief = SMALL.model_copy(update={"minimum_steps": 4})
+    expected = brief.predict(SHAPES, TRAIN, TEST, seed=1, device="cpu")
     monkeypatch.setattr(training, "SECONDS_BETWEEN_CHECKPOINTS", 0.0)
     descend, steps = training._descend, []
 
@@ -63,9 +62,9 @@ def test_a_killed_training_ends_as_an_undisturbed_one(
     monkeypatch.setattr(training, "_descend", killed)
     checkpoint = tmp_path / "state.pt"
     with pytest.raises(KeyboardInterrupt):
-        SMALL.predict(SHAPES, TRAIN, TEST, seed=1, device="cpu", checkpoint=checkpoint)
+        brief.predict(SHAPES, TRAIN, TEST, seed=1, device="cpu", checkpoint=checkpoint)
     monkeypatch.setattr(training, "_descend", descend)
-    found = SMALL.predict(SHAPES, TRAIN, TEST, seed=1, device="cpu", checkpoint=checkpoint)
+    found = brief.predict(SHAPES, TRAIN, TEST, seed=1, device="cpu", checkpoint=checkpoint)
     assert_array_equal(found.scores, expected.scores)
     assert_array_equal(found.embeddings, expected.embeddings)
 

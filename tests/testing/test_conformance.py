@@ -13,8 +13,9 @@ from gipkg.testing import parametrize_with_checks, run_checks, suite_of
 NARROW = {
     "deeppano": {"maps": [2, 4, 4, 8], "features": 16},
     "shapenets": {"rotations": 2, "maps": [4, 4, 8], "widths": [16]},
+    "voxnet": {"rotations": 2, "minimum_steps": 30},
 }
-"""What is trained long makes the same promises with fewer units."""
+"""What is trained long makes the same promises with fewer units and steps."""
 BUILT_IN = [
     registry.create(kind, name, NARROW.get(name, {}))
     for kind, names in BUILTINS.items()

@@ -54,7 +54,8 @@ def chosen_databases(section, suits, upright=False):
 def chosen_tables():
     """Return what the tables of scores hold: table -> columns by slug, databases and seeds."""
     tables = {}
-    for name, upright in (("table1", False), ("table2", True), ("table2_study", True)):
+    standing = {"table1": False, "table1_study": False, "table2": True, "table2_study": True}
+    for name, upright in standing.items():
         databases = chosen_databases(name, protocols_of, upright)
         for database in databases:
             require_protocols(f"{name}.databases", database)

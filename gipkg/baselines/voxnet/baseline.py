@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 SIZE = 32
 EXTENT = 24
 """Voxels along the longest side of a shape, in a grid of 32: the margin is for shifts."""
-MINIMUM_STEPS = 30
-"""Least number of steps, for training parts of a few shapes."""
 
 
 class VoxNet(Baseline):
@@ -40,7 +38,7 @@ class VoxNet(Baseline):
 
     The network, its dropout, momentum, weight decay and batches are the original's. Its rate of
     0.001, lowered in stages, takes 80 epochs of tens of thousands of grids. Here one rise and fall
-    of a higher rate does in a few epochs of a few hundred shapes, on a processor; number of epochs
+    of a higher rate does in a few epochs of a few hundred shapes, on a processor; number of steps
     and rate were chosen inside a training part of McGill.
     """
 
@@ -60,9 +58,12 @@ class VoxNet(Baseline):
         12, ge=2, le=72, multiple_of=2, description="Number of rotations about the upright axis"
     )
     epochs: int = Field(
-        12, ge=1, le=1000, description="Passes over all rotations of all training shapes"
+        4, ge=1, le=1000, description="Passes over all rotations of all training shapes"
     )
-    learning_rate: float = Field(0.01, gt=0, le=1, description="Highest learning rate")
+    minimum_steps: int = Field(
+        300, ge=1, description="Least number of steps, for training parts of a few hundred shapes"
+    )
+    learning_rate: float = Field(0.02, gt=0, le=1, description="Highest learning rate")
 
     def represent(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.bool_]:
         """Voxelise every rotation; (rotations, 32, 32, 32). `operators` are not used.
@@ -106,7 +107,7 @@ class VoxNet(Baseline):
             tuple(train.values()),
             training=TrainingConfig(
                 epochs=self.epochs,
-                minimum_steps=MINIMUM_STEPS,
+                minimum_steps=self.minimum_steps,
                 batch_size=32,
                 optimiser="sgd",
                 learning_rate=self.learning_rate,
