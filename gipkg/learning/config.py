@@ -47,6 +47,11 @@ class NetworkConfig(BaseModel):
         "averaged. More: the network pools so many views of a shape while it learns, and all of "
         "them when it predicts.",
     )
+    unit_signatures: bool = Field(
+        default=False,
+        description="Scale the signature of a shape to length 1, so that retrieval goes by its "
+        "direction alone.",
+    )
     margin: int = Field(
         default=4,
         ge=0,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import zipfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +71,8 @@ class Model:
         -------
         Prediction
             Scores are the softmax averaged over the views of a shape, embeddings the activations
-            of the fully connected layer averaged likewise. What is said of a shape depends on no
+            of the fully connected layer averaged likewise, of length 1 where the network is
+            configured so. What is said of a shape depends on no
             other one, and is the same bit by bit for a model read from its file.
 
         Raises
@@ -90,7 +91,12 @@ class Model:
                 )
             return self.scale(views_of(shown, self.layout))
 
-        return self.classifier.predict(prepared, ids)
+        found = self.classifier.predict(prepared, ids)
+        if not self.network.unit_signatures:
+            return found
+        lengths = np.linalg.norm(found.embeddings, axis=1, keepdims=True)
+        # A signature of zeros, where no feature is active, stays as it is.
+        return replace(found, embeddings=found.embeddings / np.where(lengths > 0, lengths, 1))
 
     def save(self, path: Path, about: Mapping[str, Any] | None = None) -> None:
         """Write an ``.npz`` without pickles, from which :func:`load_model` reads the model."""

@@ -118,6 +118,14 @@ def test_views_are_pooled_by_their_mean(undisturbed: Prediction) -> None:
     )
 
 
+def test_signatures_of_length_one_are_those_of_the_same_network(undisturbed: Prediction) -> None:
+    found = run(network=SMALL.model_copy(update={"unit_signatures": True}))
+    np.testing.assert_array_equal(found.scores, undisturbed.scores)
+    lengths = np.linalg.norm(undisturbed.embeddings, axis=1, keepdims=True)
+    np.testing.assert_allclose(found.embeddings * lengths, undisturbed.embeddings, rtol=1e-5)
+    np.testing.assert_allclose(np.linalg.norm(found.embeddings, axis=1), 1, rtol=1e-5)
+
+
 @pytest.mark.parametrize(
     "change",
     [
