@@ -211,7 +211,7 @@ def load_model(path: Path, device: str = "auto") -> Model:
     # Of numpy, json, pydantic (a ValueError) and torch in turn.
     except (
         *(ValueError, KeyError, TypeError, EOFError, RuntimeError),
-        zipfile.BadZipFile,
+        *(LearningError, zipfile.BadZipFile),
     ) as error:
         raise DamagedFileError(f"{path}: not a whole trained network; train it again") from error
     classifier = Classifier(network.to(chosen), classes)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import tarfile
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
@@ -31,6 +34,53 @@ def test_links_are_not_followed(tmp_path):
         link.type, link.linkname = tarfile.SYMTYPE, "/etc/hostname"
         archive.addfile(link)
     assert read_members(path, checksum(path), ".obj") == {}
+
+
+def test_members_that_are_no_files_or_lead_elsewhere_write_nothing(tmp_path):
+    path = tmp_path / "in" / "db.tar.gz"
+    path.parent.mkdir()
+    with tarfile.open(path, "w:gz") as archive:
+        for kind in (tarfile.LNKTYPE, tarfile.CHRTYPE, tarfile.FIFOTYPE, tarfile.DIRTYPE):
+            member = tarfile.TarInfo("db/odd.obj")
+            member.type, member.linkname = kind, "/etc/hostname"
+            archive.addfile(member)
+        for name in ("../../out.obj", "/tmp/gipkg-out.obj"):
+            archive.addfile(tarfile.TarInfo(name))
+    assert set(read_members(path, checksum(path), ".obj")) == {
+        "../../out.obj",
+        "/tmp/gipkg-out.obj",
+    }
+    assert [one.name for one in tmp_path.rglob("*")] == ["in", "db.tar.gz"]
+    assert not Path("/tmp/gipkg-out.obj").exists()
+
+
+@pytest.fixture
+def served(tmp_path):
+    """Address of a folder on this machine, and the folder."""
+    folder = tmp_path / "served"
+    folder.mkdir()
+    handler = partial(SimpleHTTPRequestHandler, directory=folder)
+    handler.func.log_message = lambda *_: None
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}", folder
+        server.shutdown()
+        thread.join()
+
+
+def test_a_download_is_kept_only_if_its_checksum_fits(tmp_path, served):
+    address, folder = served
+    sha256 = write_archive(folder / "good.tar.gz", MEMBERS)
+    write_archive(folder / "changed.tar.gz", {"db/a/1.obj": b"something else"})
+    path = tmp_path / "root" / "db.tar.gz"
+    with pytest.raises(
+        DatasetNotFound, match=r"(?s)cannot be downloaded.*changed\.tar\.gz \(ValueE"
+    ):
+        fetch_archive(path, sha256, [f"{address}/changed.tar.gz", f"{address}/missing.tar.gz"])
+    assert list(tmp_path.rglob("root/*")) == []
+    fetch_archive(path, sha256, [f"{address}/changed.tar.gz", f"{address}/good.tar.gz"])
+    assert is_intact(path, sha256)
 
 
 def test_a_changed_file_is_read_again(tmp_path):

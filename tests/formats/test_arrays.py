@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 import zipfile
 from pathlib import Path
 
@@ -62,6 +63,20 @@ def test_an_archive_that_unpacks_to_more_than_it_is(tmp_path: Path) -> None:
     np.savez_compressed(tmp_path / "a.npz", zeros=np.zeros(1 << 20))
     with pytest.raises(ValueError, match="is compressed"):
         read_arrays(tmp_path / "a.npz")
+
+
+def test_members_that_lie_on_each_other_do_not_make_more_of_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.npz"
+    write_arrays(path, {"one": np.zeros(100)})
+    content = path.read_bytes()
+    start = content.index(b"PK\x01\x02")
+    end = content.index(b"PK\x05\x06")
+    entry, tail = content[start:end], bytearray(content[end:])
+    # A directory of ten entries, of which each is the one member.
+    struct.pack_into("<HHI", tail, 8, 10, 10, 10 * len(entry))
+    path.write_bytes(content[:start] + 10 * entry + tail)
+    with pytest.raises((ValueError, zipfile.BadZipFile)):
+        read_arrays(path)
 
 
 @settings(max_examples=100)

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import time
@@ -8,8 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+import torch
 
 from gipkg.errors import DamagedFileError, LearningError
+from gipkg.files import write_arrays
+from gipkg.formats.arrays import read_arrays
 from gipkg.learning import checkpoint as checkpoints
 from gipkg.learning import training as loop
 from gipkg.learning.config import NetworkConfig, TrainingConfig
@@ -288,3 +292,36 @@ def test_a_damaged_model_is_named(damage: str, tmp_path: Path) -> None:
             np.savez(path, **{name: arrays[name] for name in arrays.files[:-3]})
     with pytest.raises(DamagedFileError, match=r"0\.model\.npz"):
         load_model(path)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("classes", ["a"] * 10**5), ("channels", 10**12), ("size", -8)]
+)
+def test_a_model_takes_no_more_memory_than_its_file_holds(
+    key: str, value: object, tmp_path: Path
+) -> None:
+    path = tmp_path / "model.npz"
+    trained().save(path)
+    arrays = read_arrays(path)
+    header = json.loads(str(arrays.pop("header"))) | {key: value}
+    write_arrays(path, {"header": np.array(json.dumps(header)), **arrays})
+    with pytest.raises(DamagedFileError, match=r"model\.npz: not a whole trained network"):
+        load_model(path)
+
+
+def test_a_compressed_model_is_not_unpacked(tmp_path: Path) -> None:
+    np.savez_compressed(tmp_path / "model.npz", header=np.array("{}"), bomb=np.zeros(1 << 20))
+    with pytest.raises(DamagedFileError, match=r"model\.npz"):
+        load_model(tmp_path / "model.npz")
+
+
+def test_a_checkpoint_that_holds_code_is_not_run(tmp_path: Path) -> None:
+    class Bomb:
+        def __reduce__(self) -> tuple:
+            return (Path.touch, (tmp_path / "went-off",))
+
+    path = tmp_path / "state.pt"
+    torch.save({"fingerprint": Bomb()}, path)
+    with pytest.raises(DamagedFileError, match=r"state\.pt: cannot be read"):
+        run(checkpoint=path)
+    assert not (tmp_path / "went-off").exists()

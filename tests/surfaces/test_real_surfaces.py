@@ -86,10 +86,14 @@ def test_parts_apart_are_refused_or_joined(data_root):
     assert_closed(prepare(path, components="joined").mesh)
 
 
-def test_every_broken_model_is_in_one_of_the_lists(data_root):
-    folder = data_root / "surfaces" / "defective"
-    listed = {f"{name}.off" for name in REPAIRED} | set(REMADE) | {THREE_APART}
-    assert {path.name for path in folder.iterdir()} == listed
+def test_every_mesh_is_in_one_of_the_lists(data_root):
+    listed = {f"closed/{name}.off" for name in CLOSED}
+    listed |= {f"higher_genus/{name}.off" for name in GENUS}
+    listed |= {f"defective/{name}.off" for name in REPAIRED}
+    listed |= {f"defective/{name}" for name in (*REMADE, THREE_APART)}
+    folder = data_root / "surfaces"
+    found = {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+    assert found == listed
 
 
 def test_shrec11_of_genus_one(data_root):
