@@ -10,6 +10,8 @@ rule represent:
         "results/benchmarks/baselines/{database}/{baseline}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         baseline=lookup("{baseline}", within=BASELINES),
     script:
@@ -31,6 +33,9 @@ rule classify:
         database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory_of_input(1000, times=2),
+        runtime=240,
     params:
         baseline=lookup("{baseline}", within=BASELINES),
     script:

@@ -16,6 +16,8 @@ rule perturb:
         source=alternatives(DATASETS),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         perturbation=lookup("{source}~{perturbation}", within=BEYOND["perturbed"]),
         seed=config["beyond"]["robustness"]["seed"],
@@ -35,6 +37,8 @@ rule predict_perturbed:
         "results/logs/learning/{source}~{perturbation}/{parametrizer}/{descriptors}/{images}/{network}/{protocol}-{seed}.log",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory_of_input(1000, times=1.5),
     params:
         code=fingerprint_module("gipkg.learning"),
     script:
@@ -52,6 +56,8 @@ rule classify_perturbed:
         "results/logs/baselines/{source}~{perturbation}/{baseline}/{protocol}-{seed}.log",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory_of_input(1000, times=2),
     params:
         baseline=lookup("{baseline}", within=BASELINES),
     script:
@@ -74,6 +80,8 @@ rule table_beyond:
         "results/logs/table1_beyond.log",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         config=config["beyond"],
         database=BEYOND["database"],

@@ -7,6 +7,8 @@ rule shapes:
         database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         dataset=lookup("{database}", within=DATASETS),
         shards=lookup("{database}/shards", within=config["datasets"]),
@@ -25,6 +27,8 @@ rule split:
         database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(500),
     params:
         protocol=protocol,
         code=fingerprint_module("gipkg.datasets.splits"),

@@ -9,6 +9,8 @@ rule spectra:
         "results/benchmarks/spectra/{database}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         eigenpairs=config["eigenpairs"],
         code=fingerprint_module("gipkg.descriptors.operators"),
@@ -28,6 +30,8 @@ rule describe:
         "results/benchmarks/descriptors/{database}/{descriptor}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         descriptor=lookup("{descriptor}", within=DESCRIPTORS),
     script:

@@ -10,6 +10,8 @@ rule complete:
         method="[a-z0-9+/-]+",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(500),
     params:
         max_failures=config["max_failures"],
     script:
@@ -26,6 +28,8 @@ rule evaluate:
         "results/logs/evaluation/{table}/{database}/{column}/{protocol}.log",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         seeds=seeds,
         code=fingerprint_module("gipkg.evaluation.scores"),
@@ -47,6 +51,8 @@ rule distort:
         "results/benchmarks/distortion/{database}/{parametrizer}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         code=[
             fingerprint_module(name)
@@ -69,6 +75,8 @@ rule reconstruct:
         "results/benchmarks/reconstruction/{database}/{parametrizer}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         shapes=config["reconstruction"]["shapes"],
         sizes=config["reconstruction"]["sizes"],

@@ -17,6 +17,8 @@ rule figure1:
         "results/benchmarks/figure1.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         **figure_params("figure1"),
     script:
@@ -41,6 +43,8 @@ rule figure2:
         "results/benchmarks/figure2.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         **figure_params("figure2"),
     script:
@@ -65,6 +69,8 @@ rule figure3:
         "results/benchmarks/figure3.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         **figure_params("figure3"),
     script:
@@ -89,6 +95,8 @@ rule figure4:
         "results/benchmarks/figure4.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         **figure_params("figure4"),
     script:
@@ -113,6 +121,8 @@ rule figure5:
         "results/benchmarks/figure5.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         **figure_params("figure5"),
     script:
@@ -137,6 +147,8 @@ rule figure6:
         "results/benchmarks/figure6.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         **figure_params("figure6"),
     script:
@@ -183,6 +195,8 @@ rule figure7:
         "results/benchmarks/figure7.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         config=config["distortion"],
         sampling=IMAGES["standard"]["sampling"],
@@ -215,6 +229,8 @@ rule precision_recall:
         figure=alternatives(CURVES),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         config=lambda wildcards: config[CURVES[wildcards.figure]],
         rows=drawn(table_rows),

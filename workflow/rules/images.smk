@@ -11,6 +11,8 @@ rule images:
         "results/benchmarks/images/{database}/{parametrizer}/{descriptors}/{images}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         images=lookup("{images}", within=IMAGES),
         code=fingerprint_module("gipkg.images"),

@@ -19,6 +19,9 @@ rule learn:
         database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory_of_input(1000, times=1.5),
+        runtime=240,
     params:
         network=lookup("{network}", within=NETWORKS),
         recipe=recipe,

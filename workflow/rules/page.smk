@@ -9,6 +9,8 @@ rule scenes:
         "results/benchmarks/page/scenes.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         shapes=[subject["shape"] for subject in ON_PAGE],
         databases=[subject["database"] for subject in ON_PAGE],
@@ -34,6 +36,8 @@ rule page:
         "results/logs/page/page.log",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         code=fingerprint_module("gipkg.reporting.page.html"),
     script:

@@ -10,6 +10,9 @@ rule parametrize:
         "results/benchmarks/parametrizers/{database}/{parametrizer}/{shard}.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
+        runtime=720,
     params:
         parametrizer=lookup("{parametrizer}", within=PARAMETRIZERS),
     script:

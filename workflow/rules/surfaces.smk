@@ -12,6 +12,8 @@ rule surfaces:
         database=alternatives(DATASETS),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(2000),
     params:
         dataset=lookup("{database}", within=DATASETS),
         options=surface_options,
@@ -29,5 +31,7 @@ rule survey:
         "results/logs/surfaces/{database}.log",
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     script:
         "../scripts/survey.py"

@@ -17,6 +17,8 @@ rule score_table:
         table=alternatives(TABLES),
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         config=table_config,
         protocols=table_protocols,
@@ -52,6 +54,8 @@ rule table_distortion:
         "results/benchmarks/table_distortion.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         config=config["distortion"],
         methods=METHODS,
@@ -86,6 +90,8 @@ rule table_reconstruction:
         "results/benchmarks/table_reconstruction.tsv"
     conda:
         "../../environment.yml"
+    resources:
+        mem_mb=memory(1000),
     params:
         config=config["reconstruction"],
         databases=MAPPED,
