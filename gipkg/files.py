@@ -8,9 +8,11 @@ import json
 import os
 import secrets
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
+
+from gipkg.errors import DamagedFileError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -42,8 +44,11 @@ def atomic(path: Path) -> Iterator[IO[bytes]]:
             stream.flush()
             os.fsync(stream.fileno())
         part.replace(path)
-    except BaseException:
-        part.unlink(missing_ok=True)
+    except BaseException as error:
+        with suppress(OSError):
+            part.unlink()
+        if isinstance(error, OSError) and error.errno and error.filename is None:
+            error.filename = str(path)  # the disk is full: where was that?
         raise
 
 
@@ -78,9 +83,34 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]
 
 
 def read_csv(path: Path) -> list[dict[str, str]]:
-    """Read a table written by :func:`write_csv`, a mapping from column to value for each row."""
-    with path.open(encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream))
+    """Read a table written by :func:`write_csv`, a mapping from column to value for each row.
+
+    Raises
+    ------
+    DamagedFileError
+        It ends within a line, or a row has more or fewer values than there are columns.
+    """
+    text = path.read_bytes().decode("utf-8", "replace")
+    rows = list(csv.DictReader(io.StringIO(text, newline="")))
+    if not text.endswith("\n") or any(None in row or None in row.values() for row in rows):
+        raise DamagedFileError(f"{path}: not a whole table; delete it and run the command again")
+    return rows
+
+
+def read_json(path: Path) -> Any:
+    """Read a document written by :func:`write_json`.
+
+    Raises
+    ------
+    DamagedFileError
+        It is not whole.
+    """
+    try:
+        return json.loads(path.read_bytes())
+    except ValueError as error:
+        raise DamagedFileError(
+            f"{path}: not a whole JSON document ({error}); delete it and run the command again"
+        ) from error
 
 
 def write_arrays(path: Path, arrays: Mapping[str, ArrayLike]) -> None:

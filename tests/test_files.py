@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import json
 import os
 import stat
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 from gipkg import files
+from gipkg.errors import DamagedFileError
 
 KILLED_WHILE_WRITING = """
 import os, signal, sys
@@ -87,6 +89,34 @@ def test_csv_survives_separators_quotes_and_line_breaks(tmp_path: Path) -> None:
     assert [list(row.values()) for row in files.read_csv(tmp_path / "t.csv")] == rows
     with pytest.raises(ValueError, match="3 values for 2 columns"):
         files.write_csv(tmp_path / "t.csv", ["id", "label"], [[1, 2, 3]])
+
+
+@pytest.mark.parametrize("keep", [0, 1, 8, 12, 17, 20])
+def test_a_table_that_ends_early_is_named(tmp_path: Path, keep: int) -> None:
+    path = tmp_path / "t.csv"
+    files.write_csv(path, ["id", "label"], [["a", "one"], ["b", "two"]])
+    path.write_bytes(path.read_bytes()[:keep])
+    with pytest.raises(DamagedFileError, match=r"t\.csv: not a whole table; delete it"):
+        files.read_csv(path)
+
+
+def test_a_document_that_ends_early_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "t.json"
+    files.write_json(path, {"a": [1, 2]})
+    assert files.read_json(path) == {"a": [1, 2]}
+    path.write_bytes(path.read_bytes()[:-3])
+    with pytest.raises(DamagedFileError, match=r"t\.json: not a whole JSON document"):
+        files.read_json(path)
+
+
+def test_a_fault_of_the_disk_names_the_file(tmp_path: Path) -> None:
+    def fill() -> None:
+        with files.atomic(tmp_path / "target"):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(OSError, match=r"No space left on device: '.*target'"):
+        fill()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_arrays_round_trip_without_pickles(tmp_path: Path) -> None:

@@ -1,9 +1,8 @@
 """Set the page: the paper's tables and figures beside ours, and shapes to turn."""
 
-import json
 from pathlib import Path
 
-from gipkg.files import write_text
+from gipkg.files import read_json, write_text
 from gipkg.reporting.page.clocks import read_clocks
 from gipkg.reporting.page.entries import gather
 from gipkg.reporting.page.html import render
@@ -17,5 +16,5 @@ page, description = Path(snakemake.output[0]), Path(snakemake.input.paper)
 results = page.parent
 paper = read_paper(description)
 entries = [gather(item, paper, results, description.parent) for item in paper.items]
-scenes = json.loads(Path(snakemake.input.scenes).read_text(encoding="utf-8"))
+scenes = read_json(Path(snakemake.input.scenes))
 write_text(page, render(entries, read_clocks(results / "benchmarks"), scenes, environment()))

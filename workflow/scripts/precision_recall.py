@@ -1,9 +1,8 @@
 """Draw the precision-recall curves of a table: Figure 8 of Table 1."""
 
-import json
 from pathlib import Path
 
-from gipkg.files import write_csv, write_json
+from gipkg.files import read_json, write_csv, write_json
 from gipkg.reporting.figures import precision_recall
 from gipkg.reporting.figures.layout import write_png
 from gipkg.reporting.provenance import environment
@@ -18,7 +17,7 @@ cells = [(*row, column["column"]) for row in params.rows for column in params.co
 points = [
     point
     for cell, path in zip(cells, snakemake.input, strict=True)
-    for point in precision_recall.curve(*cell, json.loads(Path(path).read_text(encoding="utf-8")))
+    for point in precision_recall.curve(*cell, read_json(Path(path)))
 ]
 own = own_columns(params.config["columns"])
 write_csv(Path(snakemake.output.csv), *as_table(points))

@@ -1,11 +1,10 @@
 """Set a table from its scores: for programs, for readers, and where it comes from."""
 
-import json
 from pathlib import Path
 from typing import Any
 
 from gipkg.api import Protocol, Shape
-from gipkg.files import read_csv, write_csv, write_json, write_text
+from gipkg.files import read_csv, read_json, write_csv, write_json, write_text
 from gipkg.reporting import notes, score_table
 from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
@@ -30,7 +29,7 @@ plugins = job.plugins(snakemake.params.plugins)
 
 def read(path: str) -> Any:
     """Read what an earlier stage found out."""
-    return json.loads(Path(path).read_text(encoding="utf-8"))
+    return read_json(Path(path))
 
 
 evaluations = map(read, snakemake.input.evaluations)

@@ -1,11 +1,10 @@
 """Set and draw what goes beyond the paper: few training shapes, and faulty test shapes."""
 
-import json
 from pathlib import Path
 from typing import Any
 
 from gipkg.api import Protocol, Shape
-from gipkg.files import read_csv, write_csv, write_json, write_text
+from gipkg.files import read_csv, read_json, write_csv, write_json, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_beyond as table
 from gipkg.reporting.figures import beyond as figure
@@ -27,7 +26,7 @@ plugins = job.plugins(params.plugins)
 
 def read(path: str) -> Any:
     """Read what an earlier stage found out."""
-    return json.loads(Path(path).read_text(encoding="utf-8"))
+    return read_json(Path(path))
 
 
 evaluations = map(read, snakemake.input.evaluations)

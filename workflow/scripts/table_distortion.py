@@ -1,9 +1,8 @@
 """Set the distortion table: for programs, for readers, and where it comes from."""
 
-import json
 from pathlib import Path
 
-from gipkg.files import write_csv, write_json, write_text
+from gipkg.files import read_json, write_csv, write_json, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_distortion as table
 from gipkg.reporting.provenance import environment
@@ -15,7 +14,7 @@ import job
 job.start(snakemake)
 params, plugins = snakemake.params, job.plugins(snakemake.params.plugins)
 surveys = {
-    database: json.loads(Path(path).read_text(encoding="utf-8"))
+    database: read_json(Path(path))
     for database, path in zip(params.databases, snakemake.input.surveys, strict=True)
 }
 cells = [(database, method) for database in params.databases for method in params.methods]

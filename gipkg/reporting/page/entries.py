@@ -10,7 +10,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-from gipkg.files import read_csv
+from gipkg.files import read_csv, read_json
 from gipkg.reporting import score_table, table_distortion
 from gipkg.reporting.page.claims import Checked, check
 from gipkg.reporting.page.clocks import read_clocks, seconds_of
@@ -79,7 +79,7 @@ def gather(item: Item, paper: Paper, results: Path, reference: Path) -> Entry:
     """
     csv, picture, notes = (results / f"{item.name}{end}" for end in (".csv", ".png", ".json"))
     made = csv.is_file()
-    provenance = json.loads(notes.read_text(encoding="utf-8")) if notes.is_file() else {}
+    provenance = read_json(notes) if notes.is_file() else {}
     comparison = _comparison(item.name, csv, provenance, reference, paper)
     clocks = {clock.stage: clock.seconds for clock in read_clocks(results / "benchmarks")}
     databases = provenance.get("databases", ())
