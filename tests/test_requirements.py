@@ -10,6 +10,7 @@ import yaml
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from benchmarks.lowest import lowest
 from tests.workflow.workdir import REPOSITORY
 
 PROJECT = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
@@ -55,3 +56,23 @@ def test_the_conda_environment_is_in_step(constraints: dict[str, str]) -> None:
     extras = "learn", "figures", "workflow", "test"
     names = {canonicalize_name(one.name) for one in requirements(*extras)}
     assert pins(pip["pip"]) == {name: constraints[name] for name in names}
+
+
+def test_every_dependency_has_its_reason() -> None:
+    table = (REPOSITORY / "docs" / "dependencies.md").read_text()
+    rows = [re.split(r" *\| *", line)[1:-1] for line in table.splitlines() if line.startswith("|")]
+    said = {(name, bound, extra) for name, bound, extra, reason in rows[2:] if len(reason) > 3}
+    extras = {"": PROJECT["dependencies"], **PROJECT["optional-dependencies"]}
+    needed = {
+        (one.name, ",".join(sorted(map(str, one.specifier), reverse=True)), extra)
+        for extra, texts in extras.items()
+        for one in map(Requirement, texts)
+        if one.name != "gipkg"
+    }
+    assert said == needed
+    assert len(rows[2:]) == len(needed)
+
+
+def test_the_lowest_versions_are_those_that_are_allowed() -> None:
+    lines = (REPOSITORY / "constraints-lowest.txt").read_text().splitlines()
+    assert pins(lines) == {canonicalize_name(name): bound for name, bound in lowest().items()}
