@@ -24,7 +24,7 @@ def test_every_rule_bounds_its_memory() -> None:
 
 @pytest.mark.parametrize("profile", ["slurm", "kubernetes"])
 def test_clusters_bound_what_the_rules_leave_open(profile: str) -> None:
-    settings = yaml.safe_load((REPOSITORY / f"profiles/{profile}/profile.v9+.yaml").read_text())
+    settings = yaml.safe_load((REPOSITORY / f"profiles/{profile}/config.yaml").read_text())
     assert set(settings["default-resources"]) == {"mem_mb", "runtime"}
     # A retry may take as much again.
     assert settings["retries"] > 0
