@@ -12,7 +12,7 @@ from pkgutil import iter_modules
 import click
 
 import gipkg
-from gipkg.errors import GipkgError
+from gipkg.errors import GipkgError, did_you_mean
 
 
 class Commands(click.Group):
@@ -30,6 +30,15 @@ class Commands(click.Group):
         module = import_module(f"{__name__}.{cmd_name.replace('-', '_')}")
         command: click.Command = module.command
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find a command; for one that there is not, name the nearest."""
+        names = self.list_commands(ctx)
+        if args[0] not in names and not ctx.resilient_parsing:
+            ctx.fail(f"no command is named {args[0]!r}{did_you_mean(args[0], names)}")
+        return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; exit code 1 on a GipkgError, 2 on wrong usage."""

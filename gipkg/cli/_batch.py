@@ -45,7 +45,7 @@ def plan(
     ----------
     files : sequence of Path
     output : Path
-        A file, where its suffix is one of `suffixes` and it is no folder; else a folder.
+        A file, where its suffix is one of `suffixes`; a folder, where it has none or is there.
     suffix : str, optional
         Of the files in the folder; the first of `suffixes` by default.
     suffixes : sequence of str
@@ -54,7 +54,7 @@ def plan(
     Raises
     ------
     click.UsageError
-        Two files would become one, or the suffix is asked for twice.
+        Two files would become one, the suffix is asked for twice, or is none of `suffixes`.
     """
     if output.suffix.lower() in suffixes and not output.is_dir():
         if len(files) > 1:
@@ -62,6 +62,11 @@ def plan(
         if suffix not in (None, output.suffix.lower()):
             raise click.UsageError(f"{output} is not named as a {suffix} file is")
         return [Job(files[0], output)]
+    if output.suffix and not output.is_dir():
+        raise click.UsageError(
+            f"{output}: the suffix is none of {', '.join(suffixes)} (a folder that is to be made "
+            "has no suffix)"
+        )
     jobs = [Job(file, output / (file.stem + (suffix or suffixes[0]))) for file in files]
     first: dict[Path, Path] = {}
     for job in jobs:

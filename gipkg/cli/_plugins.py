@@ -59,12 +59,25 @@ def resolve(kind: Kind, name: str) -> str:
         There is no such file, or its name is taken.
     """
     if ":" not in name:
+        require_no_file(name)
         return registry.normalise(name)
     stem = Path(name.rpartition(":")[0]).stem.lower()
     try:
         return registry.register_local(kind, stem, name).name
     except PluginError as error:
         raise click.UsageError(str(error)) from error
+
+
+def require_no_file(name: str) -> None:
+    """Refuse a file that is named without the class in it.
+
+    Raises
+    ------
+    click.UsageError
+        Says how a plugin in a file is named.
+    """
+    if name.endswith(".py"):
+        raise click.UsageError(f"{name}: a plugin in a file is named {name}:CLASS")
 
 
 def build(kind: Kind, name: str, parameters: Mapping[str, Any]) -> Any:

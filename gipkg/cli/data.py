@@ -33,14 +33,17 @@ root_option = click.option(
 
 @click.group()
 def command() -> None:
-    """Databases: what there is, what is at hand, whether it is whole."""
+    """List, fetch and check the databases."""
 
 
 @command.command("list")
 @root_option
 @json_option
 def list_(root: Path, as_json: bool) -> None:
-    """List the databases, with their licence and source; no checksum is computed."""
+    """List the databases.
+
+    With their licence and source, and whether they are at hand; no checksum is computed.
+    """
     known = [_facts(name, _dataset(name), root) for name in _all()]
     if as_json:
         for facts in known:
@@ -58,7 +61,10 @@ def list_(root: Path, as_json: bool) -> None:
 @root_option
 @json_option
 def fetch(names: tuple[str, ...], root: Path, as_json: bool) -> None:
-    """Download databases, verified; say where to get those that cannot be downloaded."""
+    """Download databases, and verify them.
+
+    Of one that cannot be downloaded, this says where to get it.
+    """
     if not names:
         raise click.UsageError(f"name what to fetch: {', '.join(_all())}")
     datasets = {name: _dataset(name) for name in names}
@@ -75,7 +81,7 @@ def fetch(names: tuple[str, ...], root: Path, as_json: bool) -> None:
 @root_option
 @json_option
 def check(names: tuple[str, ...], root: Path, as_json: bool) -> None:
-    """Compare the files of databases with their checksums.
+    """Compare databases with their checksums.
 
     Without a name, of all that are at hand; a database that is named has to be.
     """

@@ -77,7 +77,10 @@ def command(
     channels = [channel for plugin in plugins for channel in plugin.channels()] or list(POSITIONS)
     jobs = plan(files, output, suffix, IMAGE_SUFFIXES)
     if jobs[0].target.suffix.lower() == ".png" and len(channels) not in (1, 3):
-        raise click.UsageError(f"a PNG holds 1 or 3 channels, not {len(channels)}: {channels}")
+        raise click.UsageError(
+            f"a PNG holds 1 or 3 channels, not {len(channels)} ({', '.join(channels)}); "
+            ".npy and .tiff hold any number"
+        )
 
     def work(job: Job) -> Facts:
         import numpy as np

@@ -48,9 +48,10 @@ def command(
     force: bool,
     as_json: bool,
 ) -> None:
-    """Index the meshes in a folder and below by what a trained network makes of them.
+    """Index a folder of meshes, for gipkg search.
 
-    Run again, it goes on where it was stopped, and takes in what is new or has changed. Where the
+    All meshes in the folder and below are kept by what a trained network makes of them. Run
+    again, it goes on where it was stopped, and takes in what is new or has changed. Where the
     network learned from shapes that stand upright, the meshes have to stand as those did.
     """
     require("learn", "torch")
@@ -93,7 +94,7 @@ def _open(
     elif known is not None:
         network = SignatureNetwork.of(known.network, allowed)
     else:
-        raise click.UsageError("a new index needs --network")
+        raise click.UsageError("a new index needs --network results/learning/.../*.model.npz")
     if known is not None and known.key == network.key:
         return known, network
     if known is not None and not force:

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from gipkg import registry
+from gipkg.cli._plugins import require_no_file
 from gipkg.cli._tables import table
 from gipkg.errors import UnknownPluginError, did_you_mean
 from gipkg.registry import KINDS, Kind, PluginRef
@@ -21,9 +22,10 @@ folder_type = click.Path(file_okay=False, path_type=Path)
 
 @click.group()
 def command() -> None:
-    """Parametrizers, descriptors, baselines and datasets by name.
+    """List, show, check and create plugins.
 
-    Where NAME is asked for, PATH/FILE.py:CLASS with --kind means a plugin in one file.
+    They are parametrizers, descriptors, baselines and datasets, by name. Where NAME is asked for,
+    PATH/FILE.py:CLASS with --kind means a plugin in one file.
     """
 
 
@@ -44,7 +46,10 @@ def list_(kind: Kind | None, as_json: bool) -> None:
 @click.argument("name")
 @kind_option
 def show(name: str, kind: Kind | None) -> None:
-    """Show a plugin's parameters, tags, citation and file."""
+    """Show a plugin's parameters and promises.
+
+    And its citation, and the file that it is in.
+    """
     from inspect import getsourcefile
 
     from gipkg.parameters import Parameter, parameters_of
@@ -64,7 +69,10 @@ def show(name: str, kind: Kind | None) -> None:
 
 @command.command()
 def doctor() -> None:
-    """Import every plugin and say what is wrong with it; exit code 1 if anything is."""
+    """Say what is wrong with any plugin.
+
+    Each is imported; the exit code is 1 if anything is wrong.
+    """
     rows, faults = [], []
     for kind in KINDS:
         refs = registry.list_plugins(kind)
@@ -91,7 +99,10 @@ def doctor() -> None:
     help="A check that is known to fail; passing it is then a fault. May be repeated.",
 )
 def check(name: str, kind: Kind | None, data_root: Path | None, expected: tuple[str, ...]) -> None:
-    """Run the conformance suite on a plugin; exit code 1 unless it conforms."""
+    """Run the conformance suite on a plugin.
+
+    The exit code is 1 unless it conforms.
+    """
     from gipkg.testing import run_checks
 
     ref = _find(name, kind)
@@ -117,7 +128,10 @@ def check(name: str, kind: Kind | None, data_root: Path | None, expected: tuple[
     help="Where the package's folder is made; the working directory by default.",
 )
 def new(kind: Kind, name: str, directory: Path) -> None:
-    """Write a package with a new plugin, ready to install and to check."""
+    """Write a package with a new plugin.
+
+    It can be installed and checked as it stands.
+    """
     from gipkg.cli._scaffold import write_package
 
     if not registry.is_valid_name(name):
@@ -140,8 +154,9 @@ def _find(name: str, kind: Kind | None) -> PluginRef:
     """Find a plugin among all kinds, or load the file that is named instead."""
     if ":" in name:
         if kind is None:
-            raise click.UsageError("a plugin in one file needs --kind")
+            raise click.UsageError(f"a plugin in one file needs --kind {{{'|'.join(KINDS)}}}")
         return registry.register_local(kind, Path(name.rpartition(":")[0]).stem.lower(), name)
+    require_no_file(name)
     if kind:
         return registry.find(kind, name)
     refs = _all(None)

@@ -30,9 +30,9 @@ def command(
 ) -> None:
     """Close and repair meshes: one component, oriented, genus 0.
 
-    A mesh that is such a surface already is written as it is. Reads all that trimesh reads
-    (.off .obj .ply .stl .glb ...). Parameters are the keyword arguments of gipkg.prepare, such
-    as -p method=volume or -p smallest_part=0.
+    A mesh that is such a surface already is written as it is. Reads .ply .off .obj .stl .glb.
+    Parameters are the keyword arguments of gipkg.prepare, such as -p method=volume, or
+    -p method=volume -p components=joined where the parts of a shape do not touch.
     """
     options = preparation(assigned(parameters, [PREPARE])[PREPARE])
     jobs = plan(files, output, suffix, MESH_SUFFIXES)

@@ -18,7 +18,10 @@ from gipkg.formats import MESH_SUFFIXES
 def command(
     files: tuple[Path, ...], output: Path, suffix: str | None, force: bool, as_json: bool
 ) -> None:
-    """Make closed meshes of geometry images of positions (.npy .tiff .png)."""
+    """Make closed meshes of geometry images.
+
+    The images are of positions: .npy, .tiff, or a .png by gipkg image.
+    """
     jobs = plan(files, output, suffix, MESH_SUFFIXES)
 
     def work(job: Job) -> Facts:

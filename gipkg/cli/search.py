@@ -10,6 +10,7 @@ import click
 from gipkg.cli._batch import Facts, for_each, plan, printable, require_absent
 from gipkg.cli._extras import require
 from gipkg.cli._options import allow_option, files_argument, force_option, json_option
+from gipkg.cli.index import FILE_NAME
 
 SUFFIXES = (".png",)
 
@@ -21,7 +22,7 @@ SUFFIXES = (".png",)
     "index_file",
     required=True,
     type=click.Path(path_type=Path),
-    help="An index by gipkg index.",
+    help="An index by gipkg index, or the folder that it is in.",
 )
 @click.option(
     "-n", "--count", type=click.IntRange(1, 100), default=10, show_default=True, help="Hits."
@@ -44,7 +45,10 @@ def command(
     allowed: tuple[str, ...],
     as_json: bool,
 ) -> None:
-    """Find the shapes of an index that are nearest to a mesh, by their signatures."""
+    """Find the shapes of an index nearest to a mesh.
+
+    Shapes are compared by their signatures, which a trained network makes.
+    """
     require("learn", "torch")
     if output is not None:
         require("figures", "pyvista", "matplotlib")
@@ -53,6 +57,8 @@ def command(
 
     jobs = plan(files, output, None, SUFFIXES) if output else []
     sheets = {job.source: job.target for job in jobs}
+    if index_file.is_dir():
+        index_file = index_file / FILE_NAME
     index = Index.read(index_file)
     network = SignatureNetwork.of(index.network, allowed)
     if network.key != index.key:

@@ -34,10 +34,11 @@ def command(
     size: int,
     as_json: bool,
 ) -> None:
-    """Draw meshes, spherical maps and geometry images, without a display.
+    """Draw meshes, maps and geometry images.
 
     Of a mesh: the mesh. Of a map: mesh, sphere and geometry image in the same colours. Of an
-    image of positions: the image and its mesh; of another image: its channels.
+    image of positions: the image and its mesh; of another image: its channels. No display is
+    needed.
     """
     require("figures", "pyvista", "matplotlib")
     jobs = plan(files, output, suffix, SUFFIXES)

@@ -256,4 +256,5 @@ def _require_refusal(plugin: Parametrizer, mesh: trimesh.Trimesh, fault: str) ->
         named = re.search(fault, str(error), re.IGNORECASE)
         require(named, f"the error does not name the fault ({fault}): {error}")
     else:
-        require(False, "no UnsupportedMesh was raised")
+        advice = "gipkg.surfaces.validation.check_genus_zero(mesh) does"
+        require(False, f"no UnsupportedMesh was raised; {advice}")

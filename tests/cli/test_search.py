@@ -162,7 +162,7 @@ def test_an_index_of_another_version_is_not_searched(folder: Path) -> None:
 def test_what_is_needed_is_said(folder: Path, tmp_path: Path) -> None:
     (folder / "gipkg-index.npz").unlink()
     assert "a new index needs --network" in run("index", folder).stderr
-    result = run("search", folder / "plates" / "1.off", "--index", folder / "gipkg-index.npz")
+    result = run("search", folder / "plates" / "1.off", "--index", folder)
     assert result.exit_code == 1
     assert "gipkg index makes one" in result.stderr
     (tmp_path / "empty").mkdir()
