@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import resource
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -29,8 +29,11 @@ def workdir(smoke: Workdir, tmp_path: Path) -> Workdir:
 @pytest.mark.parametrize(
     ("mounts", "fault"),
     [
-        ("mount -t tmpfs -o size=64k tmpfs '{}'", "No space left on device"),
-        ("mount --bind '{0}' '{0}' && mount -o remount,bind,ro '{0}'", "Read-only file system"),
+        ("mount -t tmpfs -o size=64k tmpfs '{}'", "No space left on device: '"),
+        (
+            "mount --bind '{0}' '{0}' && mount -o remount,bind,ro '{0}'",
+            "Write-protected output files for rule images:\n *output: ",
+        ),
     ],
     ids=["full disk", "read-only"],
 )
@@ -46,8 +49,7 @@ def test_a_disk_that_takes_nothing(
     )
     said = done.stdout + done.stderr
     assert done.returncode != 0
-    assert fault in said
-    assert IMAGES in said.partition(fault)[2].partition("\n")[0]
+    assert re.search(fault + IMAGES, said), said
 
     # The same command goes on once there is room.
     assert workdir.run(TARGET).returncode == 0
@@ -55,36 +57,13 @@ def test_a_disk_that_takes_nothing(
     assert workdir.hashes()[name] == smoke.hashes()[name]
 
 
-def test_a_file_that_may_not_grow(workdir: Workdir) -> None:
-    def limit() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
-
-    done = subprocess.run(
-        workdir.command(TARGET, "--forcerun", "images"),
-        cwd=workdir.path,
-        preexec_fn=limit,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode != 0
-    assert "File too large: 'results/images/" in done.stdout + done.stderr
-    assert not (workdir.path / TARGET).exists()
-
-
-@pytest.mark.parametrize(
-    ("damaged", "target", "rule"),
-    [
-        ("results/surfaces/tiny/0.npz", "results/parametrizers/tiny/authalic/0.npz", "parametrize"),
-        ("results/datasets/tiny/splits/Tiny1-0.csv", "results/table1.csv", "evaluate"),
-        ("results/evaluation/table1/tiny/ours/Tiny1.json", "results/table1.csv", "score_table"),
-    ],
-)
-def test_a_truncated_file_is_named(workdir: Workdir, damaged: str, target: str, rule: str) -> None:
+def test_a_truncated_table_is_named(workdir: Workdir) -> None:
+    damaged = "results/datasets/tiny/splits/Tiny1-0.csv"
     path = workdir.path / damaged
     content = path.read_bytes()
     path.unlink()  # It is linked to the undisturbed run's.
     path.write_bytes(content[: len(content) - len(content) // 3])
-    done = workdir.run(target, "--forcerun", rule, "--rerun-triggers", "input")
+    targets = ("results/table1.csv", "--forcerun", "evaluate", "--rerun-triggers", "input")
+    done = workdir.run(*targets)
     assert done.returncode != 0
     assert f"DamagedFileError: {damaged}: not a whole" in done.stdout
