@@ -139,9 +139,10 @@ def literal(text: str) -> str:
 
 
 def _listing(failures: Mapping[str, str]) -> str:
-    return "; ".join(
-        f"{literal(shape_id)} ({literal(reason)})" for shape_id, reason in sorted(failures.items())
-    )
+    alike: dict[str, list[str]] = {}
+    for shape_id, reason in sorted(failures.items()):
+        alike.setdefault(reason, []).append(literal(shape_id))
+    return "; ".join(f"{', '.join(ids)} ({literal(reason)})" for reason, ids in alike.items())
 
 
 def _by_class(shapes: Sequence[Shape]) -> str:

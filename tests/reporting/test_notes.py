@@ -70,6 +70,11 @@ def test_failures_are_named_with_nothing_of_them_taken_as_markup() -> None:
     assert "lost 2 shapes of `db`" in note
 
 
+def test_shapes_with_one_fault_are_named_together() -> None:
+    note = notes.missing_note("Surfaces", "db", {"c": "open", "b": "torus", "a": "open"})
+    assert note.endswith(": `a`, `c` (`open`); `b` (`torus`).")
+
+
 def test_the_seeds_of_every_database_are_said() -> None:
     note = notes.seeds_note({"real": [0, 1, 2], "made": [0]})
     assert note.startswith("Random splits from the seeds 0, 1, 2 (`real`); 0 (`made`);")

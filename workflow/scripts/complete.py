@@ -15,5 +15,8 @@ for path in snakemake.input:
 if len(failures) > snakemake.params.max_failures:
     listing = "".join(f"\n  {shape_id}: {reason}" for shape_id, reason in sorted(failures.items()))
     allowed = snakemake.params.max_failures
-    raise TooManyFailures(f"{len(failures)} shapes failed and max_failures is {allowed}:{listing}")
+    raise TooManyFailures(
+        f"{len(failures)} shapes failed and max_failures is {allowed}; mend what is said below, or "
+        f"allow more in the configuration:{listing}"
+    )
 write_json(Path(snakemake.output[0]), failures)
