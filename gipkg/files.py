@@ -7,6 +7,7 @@ import io
 import json
 import os
 import secrets
+import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -123,5 +124,8 @@ def write_arrays(path: Path, arrays: Mapping[str, ArrayLike]) -> None:
     """
     import numpy as np
 
-    with atomic(path) as stream:
-        np.savez(stream, allow_pickle=False, **arrays)
+    with atomic(path) as stream, zipfile.ZipFile(stream, "w") as archive:
+        for name, array in arrays.items():
+            # Of numpy.savez, some versions take a word about pickles for one more array.
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.asanyarray(array), allow_pickle=False)
