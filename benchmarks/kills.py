@@ -1,11 +1,13 @@
 """Kill the smoke run at random moments, go on with the same command, and compare the results.
 
-    python -m benchmarks.kills --times 20 --seed 0
+    git clone --quiet . ../frozen && cd ../frozen
+    python -m benchmarks.kills FOLDER [--times 20] [--seed 0] [TARGET ...]
 
 Every time, the whole process group is killed (SIGKILL) at a moment drawn evenly over what an
 undisturbed run takes, and the plain command is given again in the same folder. The exit status is
-the number of times that the files did not come out equal to those of the undisturbed run.
-Commit nothing meanwhile: the provenance files name the commit.
+the number of times that the files did not come out equal to those of the undisturbed run. FOLDER
+keeps the undisturbed run and what became of each kill: started again, it goes on at the next one.
+In a clone of its own, since the provenance files name the commit, which must not change meanwhile.
 """
 
 from __future__ import annotations
@@ -17,46 +19,60 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
 
+from gipkg.files import read_csv, write_csv
 from tests.workflow.workdir import Workdir
+
+COLUMNS = ("number", "moment", "files", "verdict")
 
 
 def main() -> int:
     """Print a line a kill, and the sum."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("targets", nargs="*", help="of the smoke run; all of it by default")
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("targets", nargs="*", help="of the smoke run; all of it by default")
     options = parser.parse_args()
+    folder = options.folder.resolve()
+    undisturbed = Workdir(folder / "undisturbed")
+    seconds = undisturbed_seconds(undisturbed, options.targets)
+    expected = undisturbed.hashes()
+    print(f"undisturbed: {len(expected)} files in {seconds:.0f} s", flush=True)
+    table = folder / "kills.csv"
+    rows = [tuple(row.values()) for row in read_csv(table)] if table.exists() else []
     moments = random.Random(options.seed)
-    with tempfile.TemporaryDirectory(prefix="kills-") as scratch:
-        undisturbed = Workdir(Path(scratch) / "undisturbed")
-        undisturbed.path.mkdir()
-        began = time.monotonic()
-        finish(undisturbed, options.targets)
-        seconds = time.monotonic() - began
-        expected = undisturbed.hashes()
-        print(f"undisturbed: {len(expected)} files in {seconds:.0f} s", flush=True)
-        different = 0
-        for number in range(1, options.times + 1):
-            workdir = Workdir(Path(scratch) / str(number))
-            workdir.path.mkdir()
-            moment = moments.uniform(0, seconds)
-            left = kill_after(workdir, options.targets, moment)
-            finish(workdir, options.targets)
-            found = workdir.hashes()
-            wrong = sorted(
-                name for name in expected | found if expected.get(name) != found.get(name)
-            )
-            different += bool(wrong)
-            verdict = f"DIFFERENT: {', '.join(wrong[:5])}" if wrong else "equal"
-            print(f"kill {number} at {moment:.1f} s with {left} files: {verdict}", flush=True)
-            shutil.rmtree(workdir.path)
-    print(f"{options.times - different} of {options.times} equal")
+    drawn = [moments.uniform(0, seconds) for _ in range(options.times)]
+    for number, moment in enumerate(drawn[len(rows) :], len(rows) + 1):
+        workdir = Workdir(folder / str(number))
+        shutil.rmtree(workdir.path, ignore_errors=True)
+        workdir.path.mkdir()
+        left = kill_after(workdir, options.targets, moment)
+        finish(workdir, options.targets)
+        found = workdir.hashes()
+        wrong = sorted(name for name in expected | found if expected.get(name) != found.get(name))
+        verdict = f"DIFFERENT: {' '.join(wrong[:5])}" if wrong else "equal"
+        rows.append((str(number), f"{moment:.1f}", str(left), verdict))
+        write_csv(table, COLUMNS, rows)
+        print(f"kill {number} at {moment:.1f} s with {left} files: {verdict}", flush=True)
+        shutil.rmtree(workdir.path)
+    different = sum(row[-1] != "equal" for row in rows)
+    print(f"{len(rows) - different} of {len(rows)} equal")
     return different
+
+
+def undisturbed_seconds(workdir: Workdir, targets: list[str]) -> float:
+    """Return what a run takes that nothing disturbs, making it if there is none."""
+    clock = workdir.path.with_suffix(".seconds")
+    if not clock.exists():
+        shutil.rmtree(workdir.path, ignore_errors=True)
+        workdir.path.mkdir(parents=True)
+        began = time.monotonic()
+        finish(workdir, targets)
+        clock.write_text(str(time.monotonic() - began))
+    return float(clock.read_text())
 
 
 def kill_after(workdir: Workdir, targets: list[str], seconds: float) -> int:

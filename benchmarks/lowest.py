@@ -4,8 +4,8 @@
 
 Needs Python 3.11, on which all of them have wheels. The versions are those of
 constraints-lowest.txt, which --write makes of pyproject.toml; what is needed indirectly is not
-held back, and torch stays at the version of constraints.txt. FOLDER is where the environment is
-made or, if it is there, used again; by default it is temporary.
+held back, and torch stays at the version of constraints.txt. FOLDER is where environment and run
+are made or, if they are there, gone on with; by default it is temporary.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def main() -> int:
         folder = (options.folder or Path(scratch)).resolve()
         if not (folder / "bin/python").exists():
             install(folder)
-        return run(folder, Path(scratch) / "run", options.targets)
+        return run(folder, folder / "run", options.targets)
 
 
 def install(folder: Path) -> None:
@@ -75,7 +75,7 @@ def install(folder: Path) -> None:
 
 def run(folder: Path, workdir: Path, targets: list[str]) -> int:
     """Run the smoke configuration, or what it takes for some targets."""
-    workdir.mkdir()
+    workdir.mkdir(exist_ok=True)
     command = [
         *(folder / "bin/python", "-m", "snakemake", "--snakefile", REPOSITORY / "Snakefile"),
         *("--directory", workdir, "--cores", "2", *targets),

@@ -1,18 +1,19 @@
 """The smoke run on one core and on two, with one shard a database and with four: is it the same.
 
-    python -m benchmarks.same_twice [TARGET ...]
+    git clone --quiet . ../frozen && cd ../frozen
+    python -m benchmarks.same_twice FOLDER [TARGET ...]
 
 With more cores every file has to be the same, byte for byte, but for logs, clocks and the columns
 of seconds in tables. With more shards the shapes are in other files: what is said of each shape is
-compared, array by array, and what is made of all shapes file by file. The exit status is the number
-of differences. Commit nothing meanwhile: the provenance files name the commit.
+compared, array by array, and what is made of all shapes file by file. The exit status is the
+number of differences. FOLDER keeps the four runs: started again, it goes on where it was. In a
+clone of its own, since the provenance files name the commit, which must not change meanwhile.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
-import tempfile
 import time
 from collections.abc import Mapping
 from hashlib import sha256
@@ -29,24 +30,23 @@ DATABASES = list(yaml.safe_load(SMOKE.read_text(encoding="utf-8"))["datasets"])
 def main() -> int:
     """Print a line a comparison, and what differs."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
     parser.add_argument("targets", nargs="*", help="of the smoke run; all of it by default")
-    targets = parser.parse_args().targets
-    different = 0
-    with tempfile.TemporaryDirectory(prefix="same-twice-") as scratch:
-        folder = Path(scratch)
-        first = run(folder / "two-cores", targets, cores=2, shards=None)
-        second = run(folder / "one-core", targets, cores=1, shards=None)
-        different += compare("two cores and one", first.hashes(), second.hashes())
-        one = run(folder / "one-shard", targets, cores=2, shards=1)
-        four = run(folder / "four-shards", targets, cores=2, shards=4)
-        different += compare("one shard and four, shapes", contents(one), contents(four))
-        different += compare("one shard and four, files", together(one), together(four))
+    options = parser.parse_args()
+    folder, targets = options.folder.resolve(), options.targets
+    first = run(folder / "two-cores", targets, cores=2, shards=None)
+    second = run(folder / "one-core", targets, cores=1, shards=None)
+    different = compare("two cores and one", first.hashes(), second.hashes())
+    one = run(folder / "one-shard", targets, cores=2, shards=1)
+    four = run(folder / "four-shards", targets, cores=2, shards=4)
+    different += compare("one shard and four, shapes", contents(one), contents(four))
+    different += compare("one shard and four, files", together(one), together(four))
     return min(different, 100)
 
 
 def run(folder: Path, targets: list[str], cores: int, shards: int | None) -> Workdir:
     """Run all of the smoke configuration in a folder, or what it takes for some targets."""
-    folder.mkdir()
+    folder.mkdir(parents=True, exist_ok=True)
     config = {"datasets": {name: {"shards": shards} for name in DATABASES}} if shards else None
     began = time.monotonic()
     workdir = Workdir(folder)
