@@ -96,7 +96,8 @@ class Model:
             return found
         lengths = np.linalg.norm(found.embeddings, axis=1, keepdims=True)
         # A signature of zeros, where no feature is active, stays as it is.
-        return replace(found, embeddings=found.embeddings / np.where(lengths > 0, lengths, 1))
+        unit = found.embeddings / np.where(lengths > 0, lengths, 1)
+        return replace(found, embeddings=unit.astype(np.float32))
 
     def save(self, path: Path, about: Mapping[str, Any] | None = None) -> None:
         """Write an ``.npz`` without pickles, from which :func:`load_model` reads the model."""
