@@ -233,24 +233,23 @@ def test_a_file_that_is_too_large_is_not_opened(
 
 
 MIXED = (
-    HEAD.format("binary_little_endian", 3)
-    + FACES.format(200_000).replace("uint int", "uchar uchar")
+    HEAD.format("binary_little_endian", 3) + FACES.format(50_000).replace("uint int", "uchar uchar")
 ).encode()
 
 
 @pytest.mark.parametrize(
     ("name", "content"),
     [
-        ("lines.obj", b"\n" * 1_000_000),
-        ("vertices.obj", b"v 0 0 0\n" * 100_000),
-        ("faces.obj", b"v 0 0 0\n" + b"f 1\n" * 200_000),
-        ("materials.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n" * 20_000),
-        ("rows.off", b"OFF\n1 200000 0\n0 0 0\n" + b"0\n" * 200_000),
+        ("lines.obj", b"\n" * 250_000),
+        ("vertices.obj", b"v 0 0 0\n" * 25_000),
+        ("faces.obj", b"v 0 0 0\n" + b"f 1\n" * 50_000),
+        ("materials.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n" * 5_000),
+        ("rows.off", b"OFF\n1 50000 0\n0 0 0\n" + b"0\n" * 50_000),
         ("solids.stl", b"solid a endsolid a\n" * 50_000),
-        ("mixed.ply", MIXED + TRIANGLE.tobytes() + b"\3\0\1\2\0" * 100_000),
+        ("mixed.ply", MIXED + TRIANGLE.tobytes() + b"\3\0\1\2\0" * 25_000),
         (
             "text.ply",
-            (HEAD.format("ascii", 300_000) + FACES.format(0)).encode() + b"0 0 0\n" * 300_000,
+            (HEAD.format("ascii", 75_000) + FACES.format(0)).encode() + b"0 0 0\n" * 75_000,
         ),
     ],
 )
