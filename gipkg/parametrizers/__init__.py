@@ -15,6 +15,7 @@ import trimesh
 
 from gipkg import registry
 from gipkg.api import Callback, SphericalMap
+from gipkg.errors import UnsupportedMesh
 
 
 def parametrize(
@@ -47,9 +48,13 @@ def parametrize(
     UnknownPluginError
         There is no such parametrizer.
     UnsupportedMesh
-        The mesh is outside the method's domain.
+        The mesh is outside the method's domain, or none at all.
     ParametrizationError
         The method could not keep what it guarantees.
     """
+    if not isinstance(mesh, trimesh.Trimesh):
+        raise UnsupportedMesh(
+            f"a mesh is needed, not a {type(mesh).__name__}: gipkg.prepare reads files"
+        )
     plugin = registry.create("parametrizer", method, parameters)
     return SphericalMap(mesh, plugin.parametrize(mesh, callback))

@@ -202,3 +202,8 @@ def test_any_number_of_threads_gives_the_same_bits() -> None:
         )
         hashes.add(run.stdout)
     assert len(hashes) == 1
+
+
+def test_a_path_is_no_mesh() -> None:
+    with pytest.raises(UnsupportedMesh, match=r"not a str: gipkg\.prepare"):
+        parametrize("mesh.obj")

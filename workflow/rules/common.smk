@@ -4,6 +4,8 @@ def alternatives(names):
 
 
 require_valid(config)
+for database in config["datasets"].values():
+    database.setdefault("shards", 1)
 
 CURVES = {"figure8": "table1", "figure_table2": "table2"}
 """Precision-recall curves: figure -> table."""
