@@ -18,7 +18,7 @@ from gipkg.api.dataset import Axis, Part
 from gipkg.datasets.archives import fetch_archive, is_intact
 from gipkg.datasets.zip_archives import read_zip_member, zip_names
 from gipkg.errors import DatasetNotFound
-from gipkg.formats.reading import load_off
+from gipkg.formats.reading import parse_mesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -110,7 +110,7 @@ class ModelNetMeshes(ModelNet):
             name = f"{path.stem}/{shape_id.rpartition('_')[0]}/{part}/{shape_id}.off"
             content = self._read(root, name) if _MODEL.fullmatch(name) else None
             if content is not None:
-                return load_off(content, path.parent / name)
+                return parse_mesh(content, path.parent / name)
         raise DatasetNotFound(f"{path.stem} has no shape {shape_id!r}; it has such as chair_0001")
 
     def _listing(self, root: Path) -> list[Shape]:

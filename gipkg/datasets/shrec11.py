@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, ClassVar
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 from gipkg.datasets.archives import fetch_archive, is_intact, read_members
-from gipkg.errors import DatasetNotFound, MeshFormatError
+from gipkg.errors import DatasetNotFound
+from gipkg.formats.reading import parse_mesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -70,21 +70,11 @@ class Shrec11(Dataset):
         MeshFormatError
             The archive's member is no triangle mesh.
         """
-        import trimesh
-
         member = self._members(root).get(shape_id)
         if member is None:
             raise DatasetNotFound(f"shrec11 has no shape {shape_id!r}; it has T0 to T599")
         content = read_members(root / ARCHIVE, SHA256, ".obj")[str(member)]
-        try:
-            mesh = trimesh.load_mesh(
-                io.BytesIO(content), file_type="obj", process=False, maintain_order=True
-            )
-        except (ValueError, IndexError, KeyError) as error:
-            raise MeshFormatError(root / ARCHIVE / member, f"not an OBJ mesh ({error})") from error
-        if len(mesh.faces) == 0:
-            raise MeshFormatError(root / ARCHIVE / member, "has no faces")
-        return mesh
+        return parse_mesh(content, root / ARCHIVE / member)
 
     @staticmethod
     def _members(root: Path) -> dict[str, PurePosixPath]:

@@ -45,31 +45,25 @@ def load_mesh(path: Path | str) -> trimesh.Trimesh:
         triangle mesh with finite vertices.
     """
     path = Path(path)
-    data = _read(path)
-    if path.suffix.lower() == ".off":
-        return load_off(data, path)
-    return _mesh(*_parse(data, path), path)
+    return parse_mesh(_read(path), path)
 
 
-def load_off(data: bytes, path: Path) -> trimesh.Trimesh:
-    """Read the content of an OFF file, as :func:`load_mesh` does a file.
+def parse_mesh(data: bytes, path: Path) -> trimesh.Trimesh:
+    """Read the content of a mesh file, as :func:`load_mesh` does a file.
 
     Parameters
     ----------
     data : bytes
         All of it.
     path : Path
-        What to call it, such as its place in an archive.
+        What to call it, such as its place in an archive; the suffix names the format.
 
     Raises
     ------
     MeshFormatError
-        It is no OFF file with a triangle mesh of finite vertices.
+        It is no triangle mesh with finite vertices.
     """
-    return _mesh(*parse_off(data, path), path)
-
-
-def _mesh(vertices: np.ndarray, faces: np.ndarray, path: Path) -> trimesh.Trimesh:
+    vertices, faces = _parse(data, path)
     if fault := array_fault(vertices, faces):
         raise MeshFormatError(path, f"not a triangle mesh: {fault}")
     return trimesh.Trimesh(vertices, faces, process=False, metadata={"file_name": path.name})
@@ -102,6 +96,8 @@ def _read(path: Path) -> bytes:
 def _parse(data: bytes, path: Path) -> tuple[np.ndarray, np.ndarray]:
     try:
         match path.suffix.lower():
+            case ".off":
+                return parse_off(data, path)
             case ".glb":
                 return parse_glb(data)
             case ".stl":
