@@ -18,6 +18,7 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 from sklearn.svm import SVC
 
+from gipkg.api import Protocol
 from gipkg.datasets import split
 from gipkg.datasets.furniture import CLASSES, Furniture
 from gipkg.datasets.furniture.parts import box, loft, ring, slab, tube, turned_profile, unite
@@ -76,7 +77,7 @@ def test_a_part_is_closed_turned_outward_and_as_large_as_it_should_be(part, volu
 
 def test_ten_classes_with_an_official_split():
     shapes = Furniture().shapes(ROOT)
-    train, test = split(shapes, "official", seed=0)
+    train, test = split(shapes, Protocol("official"), seed=0)
     assert (len(train), len(test)) == (160, 40)
     assert {shape.label for shape in shapes} == set(CLASSES)
     smallest = Furniture(per_class=4).shapes(ROOT)

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gipkg.api import Protocol
 from gipkg.datasets import modelnet_voxels, split
 from gipkg.datasets.modelnet_voxels import ARCHIVE, EMPTY, ModelNet10Voxels
 from gipkg.errors import DatasetNotFound
@@ -26,7 +27,7 @@ def shapes(root):
 
 
 def test_the_official_split_without_the_empty_grids(shapes):
-    train, test = split(shapes, "official", seed=0)
+    train, test = split(shapes, Protocol("official"), seed=0)
     assert (len(train), len(test)) == (3991 - 7, 908 - 1)
     sizes = Counter(shape.label for shape in shapes if shape.part == "test")
     assert sizes.pop("bathtub") == 50

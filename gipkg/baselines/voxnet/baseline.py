@@ -61,9 +61,9 @@ class VoxNet(Baseline):
         4, ge=1, le=1000, description="Passes over all rotations of all training shapes"
     )
     minimum_steps: int = Field(
-        300, ge=1, description="Least number of steps, for training parts of a few hundred shapes"
+        400, ge=1, description="Least number of steps, for training parts of a few hundred shapes"
     )
-    learning_rate: float = Field(0.02, gt=0, le=1, description="Highest learning rate")
+    learning_rate: float = Field(0.01, gt=0, le=1, description="Highest learning rate")
 
     def represent(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.bool_]:
         """Voxelise every rotation; (rotations, 32, 32, 32). `operators` are not used.
