@@ -42,7 +42,7 @@ SlurmdPidFile=$folder/slurmd.pid
 SlurmctldLogFile=$folder/slurmctld.log
 SlurmdLogFile=$folder/slurmd.log
 NodeName=$host NodeAddr=127.0.0.1 CPUs=2 RealMemory=${WITH_SLURM_MEMORY:-8000} State=UNKNOWN
-PartitionName=debug Nodes=ALL Default=YES MaxTime=120 State=UP DefMemPerCPU=500
+PartitionName=debug Nodes=ALL Default=YES MaxTime=INFINITE State=UP DefMemPerCPU=500
 CONF
 
 (umask 077 && head -c 1024 /dev/urandom >"$folder/munge.key")
