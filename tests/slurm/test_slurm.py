@@ -32,6 +32,8 @@ QUICK = (
 ONE_COLUMN = {
     "table1": {"databases": ["tiny"], "columns": [{"column": "ShapeDNA", "baseline": "shapedna"}]}
 }
+LONG_JOB = {"datasets": {"tiny": {"shards": 1, "min_vertices": 2000, "max_vertices": 3000}}}
+"""Of some seconds, in which it can be found and killed."""
 SECONDS = 480
 
 
@@ -74,7 +76,7 @@ def test_a_job_that_dies_loses_only_what_it_had_not_finished(
 ) -> None:
     workdir = Workdir(tmp_path)
     target = "results/surfaces/tiny/0.npz"
-    command = [*with_slurm, *workdir.command(target, *QUICK)]
+    command = [*with_slurm, *workdir.command(target, *QUICK, config=LONG_JOB)]
     log = tmp_path / "run.log"
     with log.open("w") as stream:
         run = subprocess.Popen(command, cwd=tmp_path, stdout=stream, stderr=subprocess.STDOUT)
