@@ -19,7 +19,7 @@ import trimesh
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 
-NAMES = ("../../up", "/tmp/gipkg-absolute", "a\\nb", "<script>alert(1)</script>", "'\\"it\\"", "|")
+NAMES = ("../../up", "/gipkg-absolute", "a\\nb", "<script>alert(1)</script>", "'\\"it\\"", "|")
 
 
 class Hostile(Dataset):

@@ -38,9 +38,9 @@ class VoxNet(Baseline):
 
     The network, its dropout, momentum, weight decay and batches are the original's. Its rate of
     0.001, lowered in stages, takes 80 epochs of tens of thousands of grids. Here one rise and fall
-    of a higher rate does in a few epochs of a few hundred shapes, on a processor. Steps and rate were
-    tried inside a training part of McGill; twice the rate was a little better there, but is not
-    taken, since a training with it stayed at chance.
+    of a higher rate does in a few epochs of a few hundred shapes, on a processor. Steps and rate
+    were tried inside a training part of McGill; twice the rate was a little better there, but is
+    not taken, since a training with it stayed at chance.
     """
 
     summary: ClassVar[str] = "VoxNet: a 3D convolutional network on voxels, with votes of rotations"
