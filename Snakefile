@@ -7,6 +7,14 @@ configfile: Path(workflow.basedir) / "config" / "config.yaml"
 report: "workflow/report/workflow.rst"
 
 
+onstart:
+    # For its limit on submissions Snakemake looks for work again a second after each look, so that
+    # every finished job adds one look a second, to the end: hundreds of them take a core away
+    # from the jobs. A cluster needs the limit, this machine does not.
+    if workflow.local_exec:
+        workflow.scheduler.job_rate_limiter = None
+
+
 include: "workflow/rules/configuration.smk"
 include: "workflow/rules/choices.smk"
 include: "workflow/rules/common.smk"

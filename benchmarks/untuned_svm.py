@@ -5,7 +5,7 @@
 RESULTS is the folder of a run that has these baselines. For each of their rows in Table 1: the
 mean accuracy over the run's splits of a linear support vector machine on the vectors as they
 come, and on standardised ones, with each constant C. The table itself standardises and
-cross-validates C inside the training part; the paper says neither what it did.
+cross-validates C inside the training part; of either the paper says nothing.
 """
 
 from __future__ import annotations
