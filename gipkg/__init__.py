@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from gipkg.api import SphericalMap, Volume
     from gipkg.descriptors import describe
     from gipkg.evaluation.distortion import distortion
-    from gipkg.images import geometry_image, reconstruct
+    from gipkg.images.lookup import geometry_image
+    from gipkg.images.reconstruct import reconstruct
     from gipkg.parametrizers import parametrize
     from gipkg.surfaces import prepare
 
@@ -35,10 +36,10 @@ _EXPORTS = {
     "Volume": "gipkg.api",
     "describe": "gipkg.descriptors",
     "distortion": "gipkg.evaluation.distortion",
-    "geometry_image": "gipkg.images",
+    "geometry_image": "gipkg.images.lookup",
     "parametrize": "gipkg.parametrizers",
     "prepare": "gipkg.surfaces",
-    "reconstruct": "gipkg.images",
+    "reconstruct": "gipkg.images.reconstruct",
 }
 
 

@@ -21,7 +21,7 @@ from gipkg.cli._plugins import (
 from gipkg.formats import IMAGE_SUFFIXES
 
 if TYPE_CHECKING:
-    from gipkg.images import Sampling
+    from gipkg.images.octahedron import Sampling
 
 SAMPLINGS = ("equal-area", "authors")
 POSITIONS = ("x", "y", "z")
@@ -87,7 +87,7 @@ def command(
 
         from gipkg.descriptors.operators import Operators
         from gipkg.formats.images import write_image
-        from gipkg.images import geometry_image
+        from gipkg.images.lookup import geometry_image
 
         spherical_map, mask, facts = read_map(job.source, parametrizer, options)
         mesh = spherical_map.mesh

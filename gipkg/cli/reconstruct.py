@@ -28,7 +28,7 @@ def command(
         from gipkg.errors import ImageFormatError
         from gipkg.formats.images import read_image
         from gipkg.formats.meshes import write_mesh
-        from gipkg.images import reconstruct
+        from gipkg.images.reconstruct import reconstruct
 
         image = read_image(job.source)
         if len(image) != 3:

@@ -90,7 +90,11 @@ class ImageNetwork(ViewClassifier):
         by its maximum, as Su, Maji, Kalogerakis & Learned-Miller do ("Multi-view Convolutional
         Neural Networks", ICCV 2015).
         """
-        found = self.convolutions(images.float())
+        # Where convolutions compute in half precision, images are never in any other.
+        device = images.device.type
+        half = torch.is_autocast_enabled(device)
+        precision = torch.get_autocast_dtype(device) if half else torch.float32
+        found = self.convolutions(images.to(precision))
         if self.together > 1:
             views = self.together if self.training else len(images)
             found = found.unflatten(0, (-1, views)).amax(1)
@@ -123,7 +127,8 @@ def _convolutions(config: NetworkConfig, channels: int) -> list[nn.Module]:
             ]
             inputs, kernel, stride = width, KERNEL, 1
         if _is_pooled_locally(config, number):
-            layers.append(nn.MaxPool2d(POOL))
+            # The two commute, and so the rectifier has a quarter of the pixels.
+            layers.insert(-1, nn.MaxPool2d(POOL))
         else:
             layers.append(GlobalPooling(maximum=config.pooling == "average+maximum"))
     return layers

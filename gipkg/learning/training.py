@@ -75,11 +75,10 @@ def drawn_views(
 
 def make_optimiser(network: nn.Module, config: TrainingConfig) -> Optimizer:
     """Return the optimiser that the configuration names."""
+    parameters, decay = network.parameters(), config.weight_decay
     if config.optimiser == "sgd":
-        return SGD(
-            network.parameters(), momentum=MOMENTUM, lr=0.0, weight_decay=config.weight_decay
-        )
-    return AdamW(network.parameters(), lr=0.0, weight_decay=config.weight_decay)
+        return SGD(parameters, momentum=MOMENTUM, lr=0.0, weight_decay=decay, fused=True)
+    return AdamW(parameters, lr=0.0, weight_decay=decay, fused=True)
 
 
 def train(
@@ -140,7 +139,7 @@ def train(
         random = np.random.SeedSequence([seed, step])
         shown = drawn_views(next(order), of_a_shape, together, np.random.default_rng(random))
         targets = classes[shown[:, 0] // of_a_shape]
-        images = flat[shown.ravel()].permute(0, 3, 1, 2)
+        images = flat.index_select(0, torch.from_numpy(shown.ravel())).permute(0, 3, 1, 2)
         if config.mirror:
             images[::2] = images[::2].transpose(2, 3).clone()
         for group in optimiser.param_groups:

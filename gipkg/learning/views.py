@@ -10,7 +10,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from gipkg.images import pad
+from gipkg.images.padding import padding_indices
 
 
 @dataclass(frozen=True)
@@ -30,10 +30,14 @@ class Layout:
 
     def __call__(self, images: NDArray[np.float32]) -> NDArray[np.float32]:
         """Lay out the (V, C, n, n) images of one shape as (V, n + 2m, n + 2m, C) views."""
+        count, channels, size, _ = images.shape
+        rows, columns = padding_indices(size, self.margin)
+        taken = rows * size + columns
         if self.permutation is not None:
-            flat = images.reshape(*images.shape[:2], -1)
-            images = flat[..., self.permutation].reshape(images.shape)
-        return np.moveaxis(pad(images, self.margin), 1, -1)
+            taken = self.permutation[taken]
+        # Channels are moved before the pixels are, so that these are copied a run at a time.
+        pixels = np.ascontiguousarray(np.moveaxis(images.reshape(count, channels, -1), 1, 2))
+        return np.take(pixels, taken, axis=1)
 
 
 @dataclass(frozen=True)
@@ -51,12 +55,12 @@ class Scale:
 
     def __call__(self, views: Tensor) -> Tensor:
         """Scale (..., C) views to float32, in float64 so that no range of values is lost."""
-        return ((views.double() - self.mean) / self.deviation).float()
+        return (views.double() - self.mean).div_(self.deviation).float()
 
 
 def views_of(images: NDArray[np.float32], layout: Layout) -> Tensor:
     """Lay out the images of one shape as a (V, H, W, C) float32 tensor."""
-    return torch.from_numpy(np.ascontiguousarray(layout(images), dtype=np.float32))
+    return torch.from_numpy(layout(images).astype(np.float32, copy=False))
 
 
 def stack(
@@ -87,7 +91,11 @@ def fit_scale(
     means, variances = torch.zeros((2, len(ids), channels), dtype=torch.float64)
     for i, shape_id in enumerate(ids):
         values = views_of(images[shape_id], layout).reshape(-1, channels).double()
-        variances[i], means[i] = torch.var_mean(values, dim=0, correction=0)
+        # Relative to the first pixel, so that a constant channel deviates by exactly nothing.
+        first = values[0].clone()
+        offset = values.sub_(first).mean(0)
+        means[i] = first + offset
+        variances[i] = values.sub_(offset).square_().mean(0)
     # Variance within the shapes plus variance between them, all shapes being of one size.
     deviation = (variances.mean(0) + means.var(0, correction=0)).sqrt()
     return Scale(means.mean(0), torch.where(deviation > 0, deviation, 1.0))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gipkg.api import SphericalMap
 from gipkg.evaluation.distortion import distortion
 from gipkg.evaluation.surface_distance import surface_distance
-from gipkg.images import PixelLookup
+from gipkg.images.lookup import PixelLookup
 from gipkg.parametrizers.sphere.areas import flipped_faces
 from gipkg.reporting.tips import Tips
 

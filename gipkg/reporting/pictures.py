@@ -7,7 +7,8 @@ import trimesh
 from numpy.typing import NDArray
 
 from gipkg.api import SphericalMap
-from gipkg.images import geometry_image, reconstruct
+from gipkg.images.lookup import geometry_image
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import principal_camera
 from gipkg.reporting.colours import sequential
 from gipkg.reporting.figures.appearance import FRONT, RoundSphere, facing, shaded

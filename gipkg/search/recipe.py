@@ -16,8 +16,8 @@ from gipkg import registry
 from gipkg.api import Descriptor, Parametrizer, SphericalMap
 from gipkg.descriptors.operators import Operators
 from gipkg.errors import DamagedFileError, PluginError
-from gipkg.images import lookup
 from gipkg.images.config import ImageConfig
+from gipkg.images.lookup import lookup
 from gipkg.registry import Kind
 from gipkg.surfaces import prepare
 from gipkg.surfaces.upright import with_z_up

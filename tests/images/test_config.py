@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from pydantic import ValidationError
 
-from gipkg.images import standard_cuts, upright_cuts
 from gipkg.images.config import ImageConfig
+from gipkg.images.cuts import standard_cuts, upright_cuts
 
 
 def test_the_paper_s_cuts_are_the_default(sphere_map) -> None:

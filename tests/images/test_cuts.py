@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 from trimesh.intersections import mesh_plane
 
 from gipkg.api import SphericalMap
-from gipkg.images import geometry_image, lookup
 from gipkg.images.axis import highest_on_axis
 from gipkg.images.cuts import random_cuts, standard_cuts, upright_cuts
+from gipkg.images.lookup import geometry_image, lookup
 
 
 def test_six_polar_axes_with_six_turns_of_sixty_degrees() -> None:

@@ -11,8 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
 from gipkg.errors import UnsupportedMesh
-from gipkg.images import geometry_image, lookup, pad, random_cuts, standard_cuts
+from gipkg.images.cuts import random_cuts, standard_cuts
+from gipkg.images.lookup import geometry_image, lookup
 from gipkg.images.octahedron import pixel_directions
+from gipkg.images.padding import pad
 
 SEEDS = st.integers(0, 10**6)
 

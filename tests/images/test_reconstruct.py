@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from gipkg.api import SphericalMap
-from gipkg.images import geometry_image, random_cuts, reconstruct
+from gipkg.images.cuts import random_cuts
+from gipkg.images.lookup import geometry_image
 from gipkg.images.octahedron import pixel_directions
+from gipkg.images.reconstruct import reconstruct
 from gipkg.surfaces.validation import check_genus_zero
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from gipkg.images import pad
+from gipkg.images.padding import pad
 from gipkg.learning.views import Layout, fit_scale, stack, views_of
 
 
@@ -45,8 +45,10 @@ def test_channels_of_any_scale_get_mean_0_and_deviation_1() -> None:
     np.testing.assert_allclose(views.std((0, 1, 2, 3), correction=0), np.ones(3), rtol=1e-6)
 
 
-def test_a_constant_channel_becomes_zero() -> None:
-    assert (scaled({"a": np.full((3, 1, 4, 4), 7.0, np.float32)}, jointly=False) == 0).all()
+@pytest.mark.parametrize("value", [7.0, 0.1, 1e20])
+def test_a_constant_channel_becomes_zero(value: float) -> None:
+    raw = {shape: np.full((3, 1, 9, 9), value, np.float32) for shape in ("a", "b", "c")}
+    assert (scaled(raw, jointly=False) == 0).all()
 
 
 def test_jointly_scaled_channels_keep_their_proportions() -> None:

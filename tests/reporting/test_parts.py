@@ -13,7 +13,8 @@ from scipy.spatial.transform import Rotation
 from gipkg.api import SphericalMap
 from gipkg.evaluation.distortion import distortion
 from gipkg.evaluation.surface_distance import surface_distance
-from gipkg.images import geometry_image, lookup, reconstruct
+from gipkg.images.lookup import geometry_image, lookup
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.parts import WHOLE, measure
 from gipkg.reporting.tips import Tips
 

@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 
 from gipkg.api import SphericalMap
-from gipkg.images import geometry_image
+from gipkg.images.lookup import geometry_image
 from gipkg.reporting import pictures
 from gipkg.reporting.sheet import COLUMNS, Shown, draw
 from tests.support.shapes import icosphere

@@ -11,7 +11,8 @@ from scipy.spatial.transform import Rotation
 from gipkg.api import SphericalMap
 from gipkg.descriptors.operators import Operators
 from gipkg.errors import DamagedFileError, PluginError
-from gipkg.images import lookup, standard_cuts
+from gipkg.images.cuts import standard_cuts
+from gipkg.images.lookup import lookup
 from gipkg.registry import create
 from gipkg.search.network import SignatureNetwork
 from gipkg.search.recipe import ImageMaker, Recipe

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 from gipkg.api import SphericalMap
-from gipkg.images import lookup
 from gipkg.images.config import ImageConfig
+from gipkg.images.lookup import lookup
 from gipkg.shards import Arrays, Shard, join
 
 import job

@@ -7,7 +7,8 @@ from gipkg.datasets.selection import spread_over_classes
 from gipkg.errors import GipkgError
 from gipkg.evaluation.surface_distance import surface_distance
 from gipkg.files import read_csv, write_csv
-from gipkg.images import geometry_image, reconstruct
+from gipkg.images.lookup import geometry_image
+from gipkg.images.reconstruct import reconstruct
 from gipkg.progress import progress
 
 import job

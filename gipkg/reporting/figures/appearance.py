@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
-from gipkg.images import PixelLookup, lookup, reconstruct
+from gipkg.images.lookup import PixelLookup, lookup
 from gipkg.images.octahedron import pixel_directions
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import Camera, camera_on
 from gipkg.reporting.colours import category
 from gipkg.reporting.rendering import NEUTRAL

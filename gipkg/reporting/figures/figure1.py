@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from gipkg.api import SphericalMap
 from gipkg.descriptors import describe
 from gipkg.evaluation.surface_distance import surface_distance
-from gipkg.images import lookup, reconstruct
+from gipkg.images.lookup import lookup
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import category, diverging, sequential
 from gipkg.reporting.figures.appearance import facing

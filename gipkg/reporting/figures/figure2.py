@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
-from gipkg.images import PixelLookup, lookup, reconstruct
+from gipkg.images.lookup import PixelLookup, lookup
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import INK
 from gipkg.reporting.figures.appearance import BACK, FRONT, RoundSphere, facing, shaded, tip_colours

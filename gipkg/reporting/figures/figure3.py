@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gipkg.api import Iteration, Parametrizer, SphericalMap
 from gipkg.evaluation.distortion import Distortion, distortion
-from gipkg.images import geometry_image, reconstruct
+from gipkg.images.lookup import geometry_image
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import DIVERGING, INK, category, diverging
 from gipkg.reporting.figures.appearance import FRONT, RoundSphere, facing

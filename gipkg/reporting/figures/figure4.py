@@ -11,7 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from gipkg.api import SphericalMap
-from gipkg.images import geometry_image
+from gipkg.images.lookup import geometry_image
 from gipkg.images.octahedron import pixel_directions, sphere_to_square
 from gipkg.parametrizers.flow.linear_elements import LinearElements
 from gipkg.parametrizers.flow.poisson import Poisson

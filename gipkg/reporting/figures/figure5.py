@@ -13,7 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from gipkg.api import Parametrizer, SphericalMap
 from gipkg.descriptors import describe
-from gipkg.images import geometry_image, pad, reconstruct
+from gipkg.images.lookup import geometry_image
+from gipkg.images.padding import pad
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.articulation import bend, stretching
 from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import CUT, INK, category, diverging, sequential

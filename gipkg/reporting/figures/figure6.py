@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
-from gipkg.images import PixelLookup, lookup, pad, standard_cuts
-from gipkg.images.cuts import TURNS, UPRIGHT_TURNS, upright_cuts
+from gipkg.images.cuts import TURNS, UPRIGHT_TURNS, standard_cuts, upright_cuts
+from gipkg.images.lookup import PixelLookup, lookup
 from gipkg.images.octahedron import sphere_to_square
+from gipkg.images.padding import pad
 from gipkg.reporting.cameras import Camera, camera_on, principal_camera
 from gipkg.reporting.colours import CUT, INK, sequential
 from gipkg.reporting.cut_lines import cut_lines
@@ -32,7 +33,7 @@ _SIDE = 1.5
 _STANDING = (1.0, -2.0, 0.6)
 """Direction from a shape that stands upright to the eye."""
 AXES = ("+z", "-z", "+x", "-x", "+y", "-y")
-"""Polar axes in the order of :func:`gipkg.images.standard_cuts`; z is to the eye."""
+"""Polar axes in the order of :func:`gipkg.images.cuts.standard_cuts`; z is to the eye."""
 UP = "up"
 """Polar axis of a shape that stands upright."""
 

@@ -14,7 +14,9 @@ from gipkg.api import SphericalMap
 from gipkg.errors import UnsupportedMesh
 from gipkg.evaluation.histogram import LIMIT, bin_edges
 from gipkg.evaluation.surface_distance import SurfaceDistance, surface_distance
-from gipkg.images import Sampling, geometry_image, reconstruct
+from gipkg.images.lookup import geometry_image
+from gipkg.images.octahedron import Sampling
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import principal_camera
 from gipkg.reporting.colours import INK, category
 from gipkg.reporting.figures.layout import page, panel, pixels

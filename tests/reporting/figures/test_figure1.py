@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from gipkg.api import SphericalMap
-from gipkg.images import reconstruct
+from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.figures import figure1
 from gipkg.reporting.figures.layout import write_png
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import gipkg
 from gipkg.api import SphericalMap
-from gipkg.images import standard_cuts
+from gipkg.images.cuts import standard_cuts
 from gipkg.reporting.cut_lines import cut_lines, points_at
 from gipkg.reporting.figures import figure6
 from gipkg.reporting.figures.layout import write_png
