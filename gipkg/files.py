@@ -68,6 +68,9 @@ def write_json(path: Path, content: Any) -> None:
 def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
     """Write a table of comma-separated values, atomically.
 
+    It ends with an empty line, which readers of such tables skip: one that is cut off anywhere,
+    between two lines too, has none and is not taken for whole.
+
     Raises
     ------
     ValueError
@@ -80,7 +83,7 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]
         if len(row) != len(header):
             raise ValueError(f"{path}: {row!r} has {len(row)} values for {len(header)} columns")
         writer.writerow(row)
-    write_text(path, buffer.getvalue())
+    write_text(path, buffer.getvalue() + "\n")
 
 
 def read_csv(path: Path) -> list[dict[str, str]]:
@@ -89,11 +92,16 @@ def read_csv(path: Path) -> list[dict[str, str]]:
     Raises
     ------
     DamagedFileError
-        It ends within a line, or a row has more or fewer values than there are columns.
+        The empty line at its end is missing, or a row has more or fewer values than there are
+        columns.
     """
     text = path.read_bytes().decode("utf-8", "replace")
-    rows = list(csv.DictReader(io.StringIO(text, newline="")))
-    if not text.endswith("\n") or any(None in row or None in row.values() for row in rows):
+    whole = text.endswith("\n\n")
+    try:
+        rows = list(csv.DictReader(io.StringIO(text, newline=""), strict=True))
+    except csv.Error:
+        whole = False
+    if not whole or any(None in row or None in row.values() for row in rows):
         raise DamagedFileError(f"{path}: not a whole table; delete it and run the command again")
     return rows
 

@@ -91,13 +91,14 @@ def test_csv_survives_separators_quotes_and_line_breaks(tmp_path: Path) -> None:
         files.write_csv(tmp_path / "t.csv", ["id", "label"], [[1, 2, 3]])
 
 
-@pytest.mark.parametrize("keep", [0, 1, 8, 12, 17, 20])
-def test_a_table_that_ends_early_is_named(tmp_path: Path, keep: int) -> None:
+def test_a_table_that_is_cut_off_anywhere_is_named(tmp_path: Path) -> None:
     path = tmp_path / "t.csv"
-    files.write_csv(path, ["id", "label"], [["a", "one"], ["b", "two"]])
-    path.write_bytes(path.read_bytes()[:keep])
-    with pytest.raises(DamagedFileError, match=r"t\.csv: not a whole table; delete it"):
-        files.read_csv(path)
+    files.write_csv(path, ["id", "label"], [["a", "one"], ["b", "two\n\nlines"], ["c", ""]])
+    content = path.read_bytes()
+    for keep in range(len(content)):
+        path.write_bytes(content[:keep])
+        with pytest.raises(DamagedFileError, match=r"t\.csv: not a whole table; delete it"):
+            files.read_csv(path)
 
 
 def test_a_document_that_ends_early_is_named(tmp_path: Path) -> None:

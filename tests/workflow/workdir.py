@@ -103,6 +103,6 @@ def _without_clocks(path: Path) -> bytes:
     if path.suffix != ".csv":
         return path.read_bytes()
     with path.open(newline="") as stream:
-        header, *rows = csv.reader(stream)
+        header, *rows = filter(None, csv.reader(stream))
     kept = [number for number, name in enumerate(header) if not name.startswith("seconds")]
     return repr([[row[number] for number in kept] for row in (header, *rows)]).encode()
