@@ -35,7 +35,7 @@ def main() -> int:
     parser.add_argument("targets", nargs="*", help="of the smoke run; all of it by default")
     parser.add_argument("--times", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     folder = options.folder.resolve()
     undisturbed = Workdir(folder / "undisturbed")
     seconds = undisturbed_seconds(undisturbed, options.targets)

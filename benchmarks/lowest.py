@@ -50,7 +50,7 @@ def main() -> int:
     parser.add_argument("--write", action="store_true")
     parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("targets", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     if options.write:
         lines = (f"{name}=={version}\n" for name, version in lowest().items())
         FILE.write_text(HEADER + "".join(lines))

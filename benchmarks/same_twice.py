@@ -32,7 +32,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("targets", nargs="*", help="of the smoke run; all of it by default")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     folder, targets = options.folder.resolve(), options.targets
     first = run(folder / "two-cores", targets, cores=2, shards=None)
     second = run(folder / "one-core", targets, cores=1, shards=None)
