@@ -3,8 +3,9 @@
     git clone --quiet . ../frozen && cd ../frozen
     python -m benchmarks.kills FOLDER [--times 20] [--seed 0] [TARGET ...]
 
-Every time, the whole process group is killed (SIGKILL) at a moment drawn evenly over what an
-undisturbed run takes, and the plain command is given again in the same folder. The exit status is
+Every time, the whole process group is killed (SIGKILL) at a moment drawn evenly over what a run
+takes, and the plain command is given again in the same folder. A run that ends before its moment
+counts in nothing but this time: the undisturbed one had code to compile. The exit status is
 the number of times that the files did not come out equal to those of the undisturbed run. FOLDER
 keeps the undisturbed run and what became of each kill: started again, it goes on at the next one.
 In a clone of its own, since the provenance files name the commit, which must not change meanwhile.
@@ -43,13 +44,18 @@ def main() -> int:
     print(f"undisturbed: {len(expected)} files in {seconds:.0f} s", flush=True)
     table = folder / "kills.csv"
     rows = [tuple(row.values()) for row in read_csv(table)] if table.exists() else []
-    moments = random.Random(options.seed)
-    drawn = [moments.uniform(0, seconds) for _ in range(options.times)]
-    for number, moment in enumerate(drawn[len(rows) :], len(rows) + 1):
+    while len(rows) < options.times:
+        number = len(rows) + 1
+        moment = random.Random(f"{options.seed} {number} {seconds}").uniform(0, seconds)
         workdir = Workdir(folder / str(number))
         shutil.rmtree(workdir.path, ignore_errors=True)
         workdir.path.mkdir()
-        left = kill_after(workdir, options.targets, moment)
+        ended = ended_before(workdir, options.targets, moment)
+        if ended:
+            seconds = ended
+            clock_of(undisturbed).write_text(str(seconds))
+            continue
+        left = sum(path.is_file() for path in (workdir.path / "results").rglob("*"))
         finish(workdir, options.targets)
         found = workdir.hashes()
         wrong = sorted(name for name in expected | found if expected.get(name) != found.get(name))
@@ -63,9 +69,14 @@ def main() -> int:
     return different
 
 
+def clock_of(workdir: Workdir) -> Path:
+    """Return where the seconds of a run are kept, beside its folder."""
+    return workdir.path.with_suffix(".seconds")
+
+
 def undisturbed_seconds(workdir: Workdir, targets: list[str]) -> float:
     """Return what a run takes that nothing disturbs, making it if there is none."""
-    clock = workdir.path.with_suffix(".seconds")
+    clock = clock_of(workdir)
     if not clock.exists():
         shutil.rmtree(workdir.path, ignore_errors=True)
         workdir.path.mkdir(parents=True)
@@ -75,8 +86,9 @@ def undisturbed_seconds(workdir: Workdir, targets: list[str]) -> float:
     return float(clock.read_text())
 
 
-def kill_after(workdir: Workdir, targets: list[str], seconds: float) -> int:
-    """Start a run, kill all of it, and return how many files it had written."""
+def ended_before(workdir: Workdir, targets: list[str], seconds: float) -> float:
+    """Start a run and kill all of it, or return the seconds it took if it ended before: else 0."""
+    began = time.monotonic()
     run = subprocess.Popen(
         workdir.command(*targets),
         cwd=workdir.path,
@@ -89,7 +101,8 @@ def kill_after(workdir: Workdir, targets: list[str], seconds: float) -> int:
     except subprocess.TimeoutExpired:
         os.killpg(run.pid, signal.SIGKILL)
         run.wait()
-    return sum(path.is_file() for path in (workdir.path / "results").rglob("*"))
+        return 0.0
+    return time.monotonic() - began
 
 
 def finish(workdir: Workdir, targets: list[str]) -> None:
