@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import torch
@@ -78,3 +81,9 @@ def test_padding_a_mirrored_image_is_mirroring_a_padded_one() -> None:
     layout = Layout(margin=3)
     mirrored = views_of(raw, layout).transpose(1, 2)
     assert torch.equal(views_of(raw.swapaxes(-1, -2), layout), mirrored)
+
+
+def test_a_training_does_not_wait_for_imports_of_meshes_and_compilers() -> None:
+    code = "import sys, gipkg.learning.model; print({'trimesh', 'numba'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"
