@@ -19,7 +19,7 @@ def fingerprint(description: str, *tensors: Tensor) -> str:
     """Identify a training by all that determines its result."""
     digest = hashlib.sha256(f"{torch.__version__}\n{description}".encode())
     for tensor in tensors:
-        digest.update(tensor.contiguous().numpy().data)
+        digest.update(tensor.contiguous().flatten().view(torch.uint8).numpy().data)
     return digest.hexdigest()
 
 

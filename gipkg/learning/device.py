@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Literal
+from typing import Any, Literal
 
 import torch
 
@@ -56,11 +56,16 @@ def reproducible(device: torch.device, threads: int) -> Iterator[None]:
     os.environ.setdefault("CUBLAS_WORKSPACE_CONFIG", ":4096:8")
     threads_before = torch.get_num_threads()
     deterministic_before = torch.are_deterministic_algorithms_enabled()
+    deterministic: Any = torch.utils.deterministic  # Its property is not annotated.
+    filled_before = deterministic.fill_uninitialized_memory
     torch.set_num_threads(threads)
     torch.use_deterministic_algorithms(True)
+    # Filling all new memory first takes time, and no kernel here reads what it has not written.
+    deterministic.fill_uninitialized_memory = False
     try:
         with torch.random.fork_rng(devices=[device] if device.type == "cuda" else []):
             yield
     finally:
+        deterministic.fill_uninitialized_memory = filled_before
         torch.use_deterministic_algorithms(deterministic_before)
         torch.set_num_threads(threads_before)

@@ -18,7 +18,7 @@ from gipkg.files import write_arrays
 from gipkg.formats.arrays import read_arrays
 from gipkg.learning.classifier import Classifier, train_classifier
 from gipkg.learning.config import NetworkConfig, TrainingConfig
-from gipkg.learning.device import choose_device, reproducible
+from gipkg.learning.device import choose_device, computes_in_bfloat16, reproducible
 from gipkg.learning.network import ImageNetwork
 from gipkg.learning.prediction import Prediction
 from gipkg.learning.views import Layout, Scale, fit_scale, stack, views_of
@@ -89,7 +89,7 @@ class Model:
                     f"{shape_id}: images are {shown.shape[1:]}, the network learned from "
                     f"{takes} (channels, rows, columns): take the same descriptors and size"
                 )
-            return self.scale(views_of(shown, self.layout))
+            return views_of(shown, self.layout, self.scale)
 
         found = self.classifier.predict(prepared, ids)
         if not self.network.unit_signatures:
@@ -158,9 +158,13 @@ def train_model(
     network, training = network or NetworkConfig(), training or TrainingConfig()
     size = images[ids[0]].shape[-1]
     layout = Layout(network.margin, permutation(size, seed) if training.shuffle_pixels else None)
-    with reproducible(choose_device(device), training.threads):
+    chosen = choose_device(device)
+    # As the network computes, so that no step has to convert them.
+    half = computes_in_bfloat16(chosen, training.precision)
+    precision = torch.bfloat16 if half else torch.float16
+    with reproducible(chosen, training.threads):
         scale = fit_scale(images, ids, layout, jointly=training.scaling == "joint")
-        views = stack(images, ids, layout, scale)
+        views = stack(images, ids, layout, scale, precision)
     *_, padded, channels = views.shape
     classifier = train_classifier(
         lambda classes: ImageNetwork(network, channels, padded, classes),

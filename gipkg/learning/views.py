@@ -1,4 +1,4 @@
-"""Geometry images as the network takes them: padded, in its memory layout, scaled."""
+"""Geometry images as the network takes them: scaled, padded, in its memory layout."""
 
 from __future__ import annotations
 
@@ -28,16 +28,18 @@ class Layout:
     margin: int
     permutation: NDArray[np.int64] | None = None
 
-    def __call__(self, images: NDArray[np.float32]) -> NDArray[np.float32]:
+    def __call__(self, images: Tensor) -> Tensor:
         """Lay out the (V, C, n, n) images of one shape as (V, n + 2m, n + 2m, C) views."""
-        count, channels, size, _ = images.shape
-        rows, columns = padding_indices(size, self.margin)
-        taken = rows * size + columns
-        if self.permutation is not None:
-            taken = self.permutation[taken]
+        taken = self.taken(images.shape[-1])
         # Channels are moved before the pixels are, so that these are copied a run at a time.
-        pixels = np.ascontiguousarray(np.moveaxis(images.reshape(count, channels, -1), 1, 2))
-        return np.take(pixels, taken, axis=1)
+        pixels = images.flatten(2).transpose(1, 2).contiguous()
+        return pixels.index_select(1, taken.flatten()).unflatten(1, taken.shape)
+
+    def taken(self, size: int) -> Tensor:
+        """Return the pixel, in [0, n * n), that is seen at each place of a view."""
+        rows, columns = padding_indices(size, self.margin)
+        pixels = rows * size + columns
+        return torch.from_numpy(pixels if self.permutation is None else self.permutation[pixels])
 
 
 @dataclass(frozen=True)
@@ -53,29 +55,39 @@ class Scale:
     mean: Tensor
     deviation: Tensor
 
-    def __call__(self, views: Tensor) -> Tensor:
-        """Scale (..., C) views to float32, in float64 so that no range of values is lost."""
-        return (views.double() - self.mean).div_(self.deviation).float()
+    def __call__(self, images: Tensor) -> Tensor:
+        """Scale (..., C, n, n) images to float32, in float64 so that no range is lost."""
+        mean, deviation = self.mean[:, None, None], self.deviation[:, None, None]
+        return images.to(torch.float64, copy=True).sub_(mean).div_(deviation).float()
 
 
-def views_of(images: NDArray[np.float32], layout: Layout) -> Tensor:
-    """Lay out the images of one shape as a (V, H, W, C) float32 tensor."""
-    return torch.from_numpy(layout(images).astype(np.float32, copy=False))
+def views_of(
+    images: NDArray[np.float32],
+    layout: Layout,
+    scale: Scale,
+    precision: torch.dtype = torch.float32,
+) -> Tensor:
+    """Scale and lay out the (V, C, n, n) images of one shape as a (V, H, W, C) tensor."""
+    return layout(scale(_tensor(images)).to(precision))
 
 
 def stack(
-    images: Mapping[str, NDArray[np.float32]], ids: Sequence[str], layout: Layout, scale: Scale
+    images: Mapping[str, NDArray[np.float32]],
+    ids: Sequence[str],
+    layout: Layout,
+    scale: Scale,
+    precision: torch.dtype,
 ) -> Tensor:
-    """Read and scale the images of shapes, one by one, as an (n, V, H, W, C) float16 tensor.
+    """Read, scale and lay out the images of shapes, one by one, as an (n, V, H, W, C) tensor.
 
-    Values of mean 0 and deviation 1 lose nothing that a training would notice, and take half of
-    the memory, of which a training part needs the most.
+    Values of mean 0 and deviation 1 lose nothing in half a precision that a training would
+    notice, and take half of the memory, of which a training part needs the most.
     """
-    first = scale(views_of(images[ids[0]], layout))
-    views = torch.empty((len(ids), *first.shape), dtype=torch.float16)
+    first = views_of(images[ids[0]], layout, scale, precision)
+    views = torch.empty((len(ids), *first.shape), dtype=precision)
     views[0] = first
     for i, shape_id in enumerate(ids[1:], start=1):
-        views[i] = scale(views_of(images[shape_id], layout))
+        views[i] = views_of(images[shape_id], layout, scale, precision)
     return views
 
 
@@ -86,16 +98,24 @@ def fit_scale(
 
     Jointly, all channels are taken for one and keep their proportions.
     """
-    channels = 1 if jointly else images[ids[0]].shape[1]
+    channels, size = images[ids[0]].shape[1:3]
+    # What a pixel weighs is how often it is seen: no view has to be laid out.
+    seen = torch.bincount(layout.taken(size).flatten(), minlength=size**2)
+    weights = seen.double() / seen.sum()
+    groups = 1 if jointly else channels
     # Filled in place: small results kept one by one would fragment the memory of the large ones.
-    means, variances = torch.zeros((2, len(ids), channels), dtype=torch.float64)
+    means, variances = torch.zeros((2, len(ids), groups), dtype=torch.float64)
     for i, shape_id in enumerate(ids):
-        values = views_of(images[shape_id], layout).reshape(-1, channels).double()
+        values = _tensor(images[shape_id]).double().reshape(-1, groups, size**2)
         # Relative to the first pixel, so that a constant channel deviates by exactly nothing.
-        first = values[0].clone()
-        offset = values.sub_(first).mean(0)
-        means[i] = first + offset
-        variances[i] = values.sub_(offset).square_().mean(0)
+        first = values[0, :, :1].clone()
+        offset = (values.sub_(first) @ weights).mean(0)
+        means[i] = first[:, 0] + offset
+        variances[i] = (values.sub_(offset[:, None]).square_() @ weights).mean(0)
     # Variance within the shapes plus variance between them, all shapes being of one size.
     deviation = (variances.mean(0) + means.var(0, correction=0)).sqrt()
     return Scale(means.mean(0), torch.where(deviation > 0, deviation, 1.0))
+
+
+def _tensor(images: NDArray[np.float32]) -> Tensor:
+    return torch.from_numpy(images.astype(np.float32, copy=False))

@@ -9,7 +9,7 @@ import trimesh
 from numpy.testing import assert_allclose, assert_array_equal
 
 from gipkg.baselines.voxnet.baseline import EXTENT, SIZE, VoxNet
-from gipkg.baselines.voxnet.network import JITTER, VoxelNetwork, shifted
+from gipkg.baselines.voxnet.network import JITTER, Dropout, VoxelNetwork, shifted
 from gipkg.descriptors.operators import Operators
 from gipkg.learning import training
 from gipkg.testing import meshes
@@ -76,6 +76,25 @@ def test_the_network_is_as_published() -> None:
     assert sum(p.numel() for p in network.parameters()) == (
         convolutions + 128 * (32 * 6**3 + 1) + 40 * (128 + 1)
     )
+
+
+@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
+@pytest.mark.parametrize("share", [0.0, 0.2, 0.5])
+def test_dropout_drops_its_share_and_keeps_the_mean(share: float, dtype: torch.dtype) -> None:
+    torch.manual_seed(0)
+    units = torch.ones(3, 33_333, dtype=dtype, requires_grad=True)
+    dropout = Dropout(share)
+    seen = dropout(units)
+    assert seen.dtype == dtype
+    kept = seen.detach() != 0
+    assert (1 - kept.double().mean()).item() == pytest.approx(share, abs=0.006)
+    torch.testing.assert_close(seen[kept], torch.full_like(seen[kept], 1 / (1 - share)))
+    seen.sum().backward()
+    assert torch.equal(units.grad, seen.detach())
+    # Neighbours, which share a random number, are as independent as others are.
+    pairs = (~kept).flatten()[:-1].unflatten(0, (-1, 2)).all(1) if share else torch.zeros(1)
+    assert pairs.double().mean().item() == pytest.approx(share**2, abs=0.01)
+    assert torch.equal(dropout.eval()(units), units)
 
 
 def test_grids_are_shifted_each_by_itself_within_the_margin() -> None:

@@ -34,13 +34,20 @@ def test_bfloat16_follows_the_processor_unless_told(monkeypatch: pytest.MonkeyPa
     assert not computes_in_bfloat16(CPU, "auto")
 
 
+def global_state() -> tuple[int, bool, bool]:
+    deterministic = torch.are_deterministic_algorithms_enabled()
+    filled = torch.utils.deterministic.fill_uninitialized_memory
+    return torch.get_num_threads(), deterministic, filled
+
+
 def test_the_global_state_of_torch_is_put_back() -> None:
-    before = (torch.get_num_threads(), torch.are_deterministic_algorithms_enabled())
+    before = global_state()
     state = torch.get_rng_state()
     with reproducible(CPU, threads=1):
         assert torch.get_num_threads() == 1
         assert torch.are_deterministic_algorithms_enabled()
         torch.manual_seed(123)
         torch.rand(3)
-    assert (torch.get_num_threads(), torch.are_deterministic_algorithms_enabled()) == before
+        assert not torch.utils.deterministic.fill_uninitialized_memory
+    assert global_state() == before
     assert torch.equal(torch.get_rng_state(), state)

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from torch import Tensor
 
-_PLACES = 7, 6, 5, 4, 3, 2, 1, 0
-
 
 def pack(grids: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """Pack (..., n) truth values along the last axis: (..., ⌈n / 8⌉)."""
@@ -30,9 +28,12 @@ def unpack(images: Tensor, size: int) -> Tensor:
     Returns
     -------
     (B, 1, n, n, n) float32 tensor
+        The packed axis first, as in the images.
     """
     import torch
 
-    places = torch.tensor(_PLACES, device=images.device).view(8, 1, 1)
-    bits = (images.unsqueeze(2).int() >> places) & 1
-    return bits.flatten(1, 2)[:, None, :size].float()
+    eights = np.unpackbits(np.arange(256, dtype=np.uint8)[:, None], axis=1).astype(np.float32)
+    rows = images.permute(0, 2, 3, 1)
+    bits = torch.from_numpy(eights).to(images.device).index_select(0, rows.flatten().int())
+    grids = bits.view(len(images), 1, size, size, -1)[..., :size]
+    return grids.permute(0, 1, 4, 2, 3).contiguous()
