@@ -90,7 +90,7 @@ def trainings(results: Path, database: str) -> Iterator[tuple[str, float, float]
             seconds, memory = took(clock)
             exact = clock.with_suffix(".json")
             if exact.exists():
-                seconds = read_json(exact)["cpu"]
+                seconds = read_json(exact, sealed=True)["cpu"]
             yield str(clock.relative_to(results / "benchmarks").with_suffix("")), seconds, memory
 
 

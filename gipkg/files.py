@@ -6,10 +6,12 @@ import csv
 import io
 import json
 import os
+import re
 import secrets
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from hashlib import sha256
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -17,6 +19,8 @@ from gipkg.errors import DamagedFileError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+_SEAL = re.compile(r"(?P<lines>.*\n)# sha256 (?P<digest>[0-9a-f]{64})\n", re.DOTALL)
 
 
 @contextmanager
@@ -59,17 +63,26 @@ def write_text(path: Path, text: str) -> None:
         stream.write(text.encode())
 
 
-def write_json(path: Path, content: Any) -> None:
-    """Write a JSON document with sorted keys, atomically; the same content, the same bytes."""
-    text = json.dumps(content, indent=2, sort_keys=True, ensure_ascii=False, allow_nan=False)
-    write_text(path, text + "\n")
+def write_json(path: Path, content: Any, *, sealed: bool = False) -> None:
+    """Write a JSON document with sorted keys, atomically; the same content, the same bytes.
+
+    A sealed one is an object of its ``content`` and that one's ``sha256``, so that a changed
+    letter is noticed: for what a later job builds upon.
+    """
+    if sealed:
+        content = {"content": content, "sha256": _digest(content)}
+    write_text(path, _dump(content))
 
 
-def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+def write_csv(
+    path: Path, header: Sequence[str], rows: Iterable[Sequence[object]], *, sealed: bool = False
+) -> None:
     """Write a table of comma-separated values, atomically.
 
     It ends with an empty line, which readers of such tables skip: one that is cut off anywhere,
-    between two lines too, has none and is not taken for whole.
+    between two lines too, has none and is not taken for whole. A sealed one ends with a comment
+    instead, the SHA-256 of the lines before, so that a changed letter is noticed as well: for
+    what a later job builds upon, not for tables that people load elsewhere.
 
     Raises
     ------
@@ -83,7 +96,9 @@ def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]
         if len(row) != len(header):
             raise ValueError(f"{path}: {row!r} has {len(row)} values for {len(header)} columns")
         writer.writerow(row)
-    write_text(path, buffer.getvalue() + "\n")
+    lines = buffer.getvalue()
+    end = f"# sha256 {sha256(lines.encode()).hexdigest()}" if sealed else ""
+    write_text(path, f"{lines}{end}\n")
 
 
 def read_csv(path: Path) -> list[dict[str, str]]:
@@ -92,11 +107,14 @@ def read_csv(path: Path) -> list[dict[str, str]]:
     Raises
     ------
     DamagedFileError
-        The empty line at its end is missing, or a row has more or fewer values than there are
-        columns.
+        The empty line at its end is missing, or its checksum does not fit, or a row has more or
+        fewer values than there are columns.
     """
     text = path.read_bytes().decode("utf-8", "replace")
     whole = text.endswith("\n\n")
+    if seal := _SEAL.fullmatch(text):
+        text = seal["lines"]
+        whole = sha256(text.encode()).hexdigest() == seal["digest"]
     try:
         rows = list(csv.DictReader(io.StringIO(text, newline=""), strict=True))
     except csv.Error:
@@ -106,20 +124,33 @@ def read_csv(path: Path) -> list[dict[str, str]]:
     return rows
 
 
-def read_json(path: Path) -> Any:
+def read_json(path: Path, *, sealed: bool = False) -> Any:
     """Read a document written by :func:`write_json`.
 
     Raises
     ------
     DamagedFileError
-        It is not whole.
+        It is not whole, or its checksum does not fit.
     """
     try:
-        return json.loads(path.read_bytes())
-    except ValueError as error:
+        document = json.loads(path.read_bytes())
+        if sealed and _digest(document["content"]) != document["sha256"]:
+            raise ValueError("its checksum does not fit")
+    except (ValueError, TypeError, KeyError) as error:
         raise DamagedFileError(
             f"{path}: not a whole JSON document ({error}); delete it and run the command again"
         ) from error
+    return document["content"] if sealed else document
+
+
+def _dump(content: Any) -> str:
+    text = json.dumps(content, indent=2, sort_keys=True, ensure_ascii=False, allow_nan=False)
+    return text + "\n"
+
+
+def _digest(content: Any) -> str:
+    # As it is read again: keys that are numbers become texts, and sorted as such.
+    return sha256(_dump(json.loads(_dump(content))).encode()).hexdigest()
 
 
 def write_arrays(path: Path, arrays: Mapping[str, ArrayLike]) -> None:

@@ -179,7 +179,7 @@ def map_shard(
             done[shape_id] = part
     if seconds is not None:
         taken = [(shape_id, _clock(part).read_text()) for shape_id, part in done.items()]
-        write_csv(seconds, ("id", "seconds"), taken)
+        write_csv(seconds, ("id", "seconds"), taken, sealed=True)
     _pack(out, done, failed)
     with suppress(FileNotFoundError):
         shutil.rmtree(work)

@@ -6,10 +6,15 @@ import os
 import stat
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from gipkg import files
 from gipkg.errors import DamagedFileError
@@ -99,6 +104,65 @@ def test_a_table_that_is_cut_off_anywhere_is_named(tmp_path: Path) -> None:
         path.write_bytes(content[:keep])
         with pytest.raises(DamagedFileError, match=r"t\.csv: not a whole table; delete it"):
             files.read_csv(path)
+
+
+CONTENT = {"b": [0.1, 2, None], "a": {"10": "é", "2": "\n"}}
+
+
+def test_a_sealed_table_names_any_change(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    rows = [["a", "0.25"], ["# sha256", "two\n\nlines"], ["c", ""]]
+    files.write_csv(path, ["id", "value"], rows, sealed=True)
+    assert [list(row.values()) for row in files.read_csv(path)] == rows
+    for damaged in one_byte_less_or_changed(path.read_bytes()):
+        path.write_bytes(damaged)
+        with pytest.raises(DamagedFileError, match=r"t\.csv: not a whole table; delete it"):
+            files.read_csv(path)
+
+
+def test_a_sealed_document_names_any_change(tmp_path: Path) -> None:
+    path = tmp_path / "t.json"
+    files.write_json(path, CONTENT, sealed=True)
+    assert files.read_json(path, sealed=True) == CONTENT
+    survived = 0
+    for damaged in one_byte_less_or_changed(path.read_bytes()):
+        path.write_bytes(damaged)
+        with suppress(DamagedFileError):
+            # Spaces between the values are no content.
+            assert files.read_json(path, sealed=True) == CONTENT
+            survived += 1
+    assert survived < 100
+
+
+def test_what_is_not_sealed_is_not_taken_for_it(tmp_path: Path) -> None:
+    files.write_json(tmp_path / "t.json", CONTENT)
+    with pytest.raises(DamagedFileError, match=r"t\.json: not a whole JSON document"):
+        files.read_json(tmp_path / "t.json", sealed=True)
+
+
+KEYS = st.text(), st.integers()
+VALUES = st.none() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | st.text()
+
+
+@settings(max_examples=30)
+@given(
+    st.recursive(
+        VALUES,
+        lambda inner: st.lists(inner) | st.one_of(*(st.dictionaries(key, inner) for key in KEYS)),
+        max_leaves=10,
+    )
+)
+def test_any_content_can_be_sealed(content: object) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "t.json"
+        files.write_json(path, content, sealed=True)
+        assert files.read_json(path, sealed=True) == json.loads(json.dumps(content))
+
+
+def one_byte_less_or_changed(content: bytes) -> Iterator[bytes]:
+    for place in range(len(content)):
+        yield content[:place] + content[place + 1 :]
+        yield content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :]
 
 
 def test_a_document_that_ends_early_is_named(tmp_path: Path) -> None:

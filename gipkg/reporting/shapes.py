@@ -97,7 +97,8 @@ def _figures(figures: Mapping[str, Any]) -> str:
 def write_shapes(path: Path, shapes: Iterable[MappedShape]) -> None:
     """Write one row a shape; a figure that is not there is empty."""
     names = [field.name for field in fields(MappedShape)]
-    write_csv(path, names, ([_text(getattr(shape, name)) for name in names] for shape in shapes))
+    rows = ([_text(getattr(shape, name)) for name in names] for shape in shapes)
+    write_csv(path, names, rows, sealed=True)
 
 
 def _text(value: str | float) -> str:

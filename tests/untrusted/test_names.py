@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import re
 from pathlib import Path
 
+from gipkg.files import read_csv
 from gipkg.shards import Shard
 from tests.workflow.workdir import Workdir
 
@@ -74,8 +74,8 @@ def test_names_stay_names(tmp_path: Path) -> None:
     ]
     assert not [path for path in made if set(path.name) & set("<>|\n\"'")]
 
-    with (folder / "results/datasets/hostile/shapes.csv").open(newline="") as stream:
-        listed = {row["id"]: row["label"] for row in csv.DictReader(stream)}
+    rows = read_csv(folder / "results/datasets/hostile/shapes.csv")
+    listed = {row["id"]: row["label"] for row in rows}
     assert len(listed) == 12
     shard = Shard.open(folder / "results/baselines/hostile/shapedna/0.npz")
     assert set(shard) | set(shard.failures) == set(listed)

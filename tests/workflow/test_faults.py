@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -57,13 +58,33 @@ def test_a_disk_that_takes_nothing(
     assert workdir.hashes()[name] == smoke.hashes()[name]
 
 
-def test_a_truncated_table_is_named(workdir: Workdir) -> None:
-    damaged = "results/datasets/tiny/splits/Tiny1-0.csv"
+def cut_off(content: bytes) -> bytes:
+    return content[: len(content) - len(content) // 3]
+
+
+def changed(content: bytes) -> bytes:
+    """Change the first digit after the first line."""
+    start = content.index(b"\n")
+    place = next(i for i, byte in enumerate(content) if i > start and byte in b"0123456789")
+    return content[:place] + (b"8" if content[place] == ord("7") else b"7") + content[place + 1 :]
+
+
+@pytest.mark.parametrize("damage", [cut_off, changed])
+@pytest.mark.parametrize(
+    ("damaged", "rule"),
+    [
+        ("results/datasets/tiny/splits/Tiny1-0.csv", "evaluate"),
+        ("results/evaluation/table1/tiny/ours/Tiny1.json", "score_table"),
+    ],
+)
+def test_a_damaged_text_is_named(
+    workdir: Workdir, damaged: str, rule: str, damage: Callable[[bytes], bytes]
+) -> None:
     path = workdir.path / damaged
     content = path.read_bytes()
     path.unlink()  # It is linked to the undisturbed run's.
-    path.write_bytes(content[: len(content) - len(content) // 3])
-    targets = ("results/table1.csv", "--forcerun", "evaluate", "--rerun-triggers", "input")
+    path.write_bytes(damage(content))
+    targets = ("results/table1.csv", "--forcerun", rule, "--rerun-triggers", "input")
     done = workdir.run(*targets)
     assert done.returncode != 0
     assert f"DamagedFileError: {damaged}: not a whole" in done.stdout

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from gipkg.files import read_csv, read_json
 from gipkg.learning.model import load_model
 from tests.workflow.workdir import Workdir
 
@@ -56,9 +55,8 @@ def results(smoke: Workdir, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def split(results: Path, name: str) -> dict[str, dict[str, str]]:
     """Return one split: part -> shape -> class."""
     parts: dict[str, dict[str, str]] = {"train": {}, "test": {}}
-    with (results / f"datasets/tiny/splits/{name}.csv").open(newline="") as stream:
-        for row in csv.DictReader(stream):
-            parts[row["part"]][row["id"]] = row["label"]
+    for row in read_csv(results / f"datasets/tiny/splits/{name}.csv"):
+        parts[row["part"]][row["id"]] = row["label"]
     return parts
 
 
@@ -84,10 +82,10 @@ def test_networks_and_baselines_know_its_classes_and_are_asked_about_its_shapes(
 
 
 def test_a_lost_shape_counts_where_it_is_tested(results: Path) -> None:
-    lost = set(json.loads((results / "failures/baselines/tiny/picky.json").read_text()))
+    lost = set(read_json(results / "failures/baselines/tiny/picky.json", sealed=True))
     for row, tested in (("Some", 6), ("Tiny1", 20)):
         picky, ours = (
-            json.loads((results / f"evaluation/table1/tiny/{column}/{row}.json").read_text())[0]
+            read_json(results / f"evaluation/table1/tiny/{column}/{row}.json", sealed=True)[0]
             for column in ("picky", "ours")
         )
         assert picky["tested"] == ours["tested"] == tested

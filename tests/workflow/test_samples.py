@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import importlib
-import json
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
 
-from gipkg.files import write_csv
+from gipkg.files import read_json, write_csv
 from gipkg.learning.prediction import Prediction
 from gipkg.shards import map_shard
 from tests.workflow.workdir import REPOSITORY
@@ -70,7 +69,7 @@ def test_shapes_without_features_are_in_neither_part_and_the_time_is_kept_apart(
     )
     for resumed in (False, True):
         samples.predict_test_part(job, samples.Features([str(shard)], "vector"), predict)
-        seconds = json.loads((tmp_path / "p.json").read_text())
+        seconds = read_json(tmp_path / "p.json", sealed=True)
         assert seconds.pop("resumed") is resumed
         assert set(seconds) == {"wall", "cpu"}
         assert min(seconds.values()) > 0

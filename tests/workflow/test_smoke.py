@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import csv
 import json
 import os
 import signal
@@ -11,13 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gipkg.files import read_csv, read_json
 from gipkg.shards import Shard
 from tests.workflow.workdir import Workdir
 
 
 def test_the_table_has_a_row_a_split_and_every_figure_in_its_range(smoke: Workdir) -> None:
-    with (smoke.path / "results/table1.csv").open() as stream:
-        (row,) = csv.DictReader(stream)
+    (row,) = read_csv(smoke.path / "results/table1.csv")
     assert (row.pop("database"), row.pop("split")) == ("tiny", "Tiny1")
     assert len(row) == 16
     for name, value in row.items():
@@ -29,8 +28,7 @@ def test_the_table_has_a_row_a_split_and_every_figure_in_its_range(smoke: Workdi
 
 
 def test_the_tables_keep_their_columns_of_one_heading_apart(smoke: Workdir) -> None:
-    with (smoke.path / "results/table2.csv").open() as stream:
-        (row,) = csv.DictReader(stream)
+    (row,) = read_csv(smoke.path / "results/table2.csv")
     assert (row["database"], row["split"]) == ("tiny-furniture", "Tiny2")
     assert list(row)[2::4] == ["SH accuracy mean", "Ours accuracy mean"]
     # Ten classes: guessing reaches 10 %.
@@ -57,7 +55,7 @@ def test_upright_shapes_have_twelve_turns_and_a_mask_of_what_closed_them(smoke: 
 
 
 def test_what_training_took_is_said_for_every_column(smoke: Workdir) -> None:
-    rows = read(smoke.path / "results/table1_seconds.csv")
+    rows = read_csv(smoke.path / "results/table1_seconds.csv")
     assert [row["column"] for row in rows] == ["Zernike", "ShapeDNA", "Conformal", "Ours"]
     for row in rows:
         assert (row["database"], row["split"], row["seconds_trainings"]) == ("tiny", "Tiny1", "2")
@@ -66,7 +64,7 @@ def test_what_training_took_is_said_for_every_column(smoke: Workdir) -> None:
 
 
 def test_the_note_says_who_is_ahead(smoke: Workdir) -> None:
-    (row,) = read(smoke.path / "results/table1.csv")
+    (row,) = read_csv(smoke.path / "results/table1.csv")
     (note,) = [
         line
         for line in (smoke.path / "results/table1.md").read_text().splitlines()
@@ -79,7 +77,7 @@ def test_the_note_says_who_is_ahead(smoke: Workdir) -> None:
 
 
 def test_figure_8_shows_the_curves_of_the_table(smoke: Workdir) -> None:
-    points = read(smoke.path / "results/figure8.csv")
+    points = read_csv(smoke.path / "results/figure8.csv")
     table = json.loads((smoke.path / "results/figure8.json").read_text())["config"]
     columns = [column["column"] for column in table["columns"]]
     assert len(points) == 11 * len(columns)
@@ -88,8 +86,8 @@ def test_figure_8_shows_the_curves_of_the_table(smoke: Workdir) -> None:
         assert [float(point["recall"]) for point in curve] == [n / 10 for n in range(11)]
         precision = [float(point["precision"]) for point in curve]
         assert precision == sorted(precision, reverse=True)
-        scores = json.loads(
-            (smoke.path / f"results/evaluation/table1/tiny/{column.lower()}/Tiny1.json").read_text()
+        scores = read_json(
+            smoke.path / f"results/evaluation/table1/tiny/{column.lower()}/Tiny1.json", sealed=True
         )
         assert precision[5] == pytest.approx(np.mean([one["precision"][5] for one in scores]))
     assert (smoke.path / "results/figure8.png").stat().st_size > 10_000
@@ -97,7 +95,7 @@ def test_figure_8_shows_the_curves_of_the_table(smoke: Workdir) -> None:
 
 def test_faults_are_those_of_test_shapes_and_nothing_learns_from_them(smoke: Workdir) -> None:
     results = smoke.path / "results"
-    rows = read(results / "table1_beyond.csv")
+    rows = read_csv(results / "table1_beyond.csv")
     assert [(row["setting"], row["amount"], row["splits"]) for row in rows] == [
         ("training shapes a class", "1", "1"),
         ("training shapes a class", "2", "1"),
@@ -109,10 +107,10 @@ def test_faults_are_those_of_test_shapes_and_nothing_learns_from_them(smoke: Wor
             assert 10 < float(row[f"{column} accuracy mean"]) <= 100
             assert 0 < float(row[f"{column} mAP mean"]) <= 1
     # The same networks and test shapes as in the table, for the first of its seeds.
-    shared = json.loads((results / "evaluation/table1/tiny/ours/Tiny1.json").read_text())[0]
+    (shared, *_) = read_json(results / "evaluation/table1/tiny/ours/Tiny1.json", sealed=True)
     assert float(rows[2]["Ours accuracy mean"]) == pytest.approx(100 * shared["accuracy"], abs=0.01)
 
-    split = read(results / "datasets/tiny/splits/Tiny1-0.csv")
+    split = read_csv(results / "datasets/tiny/splits/Tiny1-0.csv")
     tested = {row["id"] for row in split if row["part"] == "test"}
     faulty = Shard.open(results / "surfaces/tiny~noise-0.2/0.npz")
     assert set(faulty) == tested
@@ -127,8 +125,7 @@ def test_faults_are_those_of_test_shapes_and_nothing_learns_from_them(smoke: Wor
 
 
 def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
-    with (smoke.path / "results/datasets/tiny/shapes.csv").open() as stream:
-        ids = {row["id"] for row in csv.DictReader(stream)}
+    ids = {row["id"] for row in read_csv(smoke.path / "results/datasets/tiny/shapes.csv")}
     assert len(ids) == 40
     for column in ("conformal", "authalic"):
         folder = smoke.path / "results/images/tiny" / column / "hks/standard"
@@ -140,31 +137,26 @@ def test_every_shape_went_all_the_way(smoke: Workdir) -> None:
         assert images.dtype == np.float32
 
 
-def read(path: Path) -> list[dict[str, str]]:
-    with path.open(newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
 def test_the_distortion_of_every_shape_is_said(smoke: Workdir) -> None:
     results = smoke.path / "results"
-    rows = {row["parametrizer"]: row for row in read(results / "table_distortion.csv")}
+    rows = {row["parametrizer"]: row for row in read_csv(results / "table_distortion.csv")}
     assert list(rows) == ["authalic", "conformal"]
     for method, row in rows.items():
-        shapes = read(results / f"distortion/tiny/{method}.csv")
+        shapes = read_csv(results / f"distortion/tiny/{method}.csv")
         assert len(shapes) == int(row["shapes"]) == 40
         assert {shape["flips"] for shape in shapes} == {row["flips"]} == {"0"}
         assert {float(shape["degree"]) for shape in shapes} == {1}
         assert min(float(shape["seconds"]) for shape in shapes) > 0
         repaired = [shape["surface"] for shape in shapes if shape["surface"] != "as it was"]
         assert any("cut handles" in steps for steps in repaired)
-        bins = read(results / f"distortion/tiny/{method}.histogram.csv")
+        bins = read_csv(results / f"distortion/tiny/{method}.histogram.csv")
         faces = sum(int(shape["faces"]) for shape in shapes)
         assert sum(int(one["triangles"]) for one in bins) == faces
     assert float(rows["authalic"]["variance"]) < float(rows["conformal"]["variance"]) / 10
 
 
 def test_images_of_equal_areas_keep_more_of_a_shape(smoke: Workdir) -> None:
-    rows = read(smoke.path / "results/table_reconstruction.csv")
+    rows = read_csv(smoke.path / "results/table_reconstruction.csv")
     assert [int(row["size"]) for row in rows] == [16, 32, 16, 32]
     for row in rows:
         for figure in ("hausdorff", "mean"):
@@ -172,7 +164,7 @@ def test_images_of_equal_areas_keep_more_of_a_shape(smoke: Workdir) -> None:
     # Figure 7 shows the same shapes through images of the larger size.
     shown = {
         (row["shape"], row["parametrizer"]): row["hausdorff"]
-        for row in read(smoke.path / "results/figure7_shapes.csv")
+        for row in read_csv(smoke.path / "results/figure7_shapes.csv")
     }
     for row in rows[1::2]:
         for method in ("authalic", "conformal"):
@@ -208,9 +200,9 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
         },
     )
     assert done.returncode == 0, done.stdout
-    shapes = read(tmp_path / "results/distortion/tiny/picky.csv")
+    shapes = read_csv(tmp_path / "results/distortion/tiny/picky.csv")
     assert len(shapes) == 40
-    (row,) = read(tmp_path / "results/table_distortion.csv")
+    (row,) = read_csv(tmp_path / "results/table_distortion.csv")
     failed = [shape for shape in shapes if shape["failure"]]
     assert 0 < len(failed) == int(row["failures"]) == 40 - int(row["shapes"])
     for shape in failed:
@@ -222,7 +214,7 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
     note = (tmp_path / "results/table_distortion.md").read_text()
     assert f"gives nothing for {len(failed)} shapes of `tiny`" in note
     assert "`ParametrizationError: an odd number of vertices`" in note
-    distances = read(tmp_path / "results/table_reconstruction.csv")
+    distances = read_csv(tmp_path / "results/table_reconstruction.csv")
     assert {row["picky hausdorff"] for row in distances} == {""}
     note = (tmp_path / "results/table_reconstruction.md").read_text()
     assert "it is not a map of degree 1" in note
@@ -240,7 +232,7 @@ def test_every_training_left_its_seconds_among_the_timings(smoke: Workdir) -> No
         trained += found
     for prediction in trained:
         timing = results / "benchmarks" / prediction.relative_to(results).with_suffix(".json")
-        seconds = json.loads(timing.read_text())
+        seconds = read_json(timing, sealed=True)
         assert seconds["cpu"] > 0
         assert not seconds["resumed"]
 

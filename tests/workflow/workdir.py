@@ -104,5 +104,7 @@ def _without_clocks(path: Path) -> bytes:
         return path.read_bytes()
     with path.open(newline="") as stream:
         header, *rows = filter(None, csv.reader(stream))
+    if rows and rows[-1][0].startswith("# sha256"):
+        rows.pop()
     kept = [number for number, name in enumerate(header) if not name.startswith("seconds")]
     return repr([[row[number] for number in kept] for row in (header, *rows)]).encode()

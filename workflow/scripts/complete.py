@@ -19,4 +19,4 @@ if len(failures) > snakemake.params.max_failures:
         f"{len(failures)} shapes failed and max_failures is {allowed}; mend what is said below, or "
         f"allow more in the configuration:{listing}"
     )
-write_json(Path(snakemake.output[0]), failures)
+write_json(Path(snakemake.output[0]), failures, sealed=True)

@@ -32,4 +32,4 @@ for shape_id in progress(maps.ids, "distortion"):
 write_shapes(Path(snakemake.output.shapes), sorted(shapes, key=lambda shape: shape.id))
 bins = zip(edges[:-1], edges[1:], counts, strict=True)
 rows = [(f"{low:.4f}", f"{high:.4f}", count) for low, high, count in bins]
-write_csv(Path(snakemake.output.histogram), ("from", "to", "triangles"), rows)
+write_csv(Path(snakemake.output.histogram), ("from", "to", "triangles"), rows, sealed=True)

@@ -15,4 +15,4 @@ scores = [
     {"seed": seed} | asdict(score(read_prediction(prediction), read_split(split, "test")))
     for seed, prediction, split in runs
 ]
-write_json(Path(snakemake.output[0]), scores)
+write_json(Path(snakemake.output[0]), scores, sealed=True)

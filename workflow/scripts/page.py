@@ -16,5 +16,5 @@ page, description = Path(snakemake.output[0]), Path(snakemake.input.paper)
 results = page.parent
 paper = read_paper(description)
 entries = [gather(item, paper, results, description.parent) for item in paper.items]
-scenes = read_json(Path(snakemake.input.scenes))
+scenes = read_json(Path(snakemake.input.scenes), sealed=True)
 write_text(page, render(entries, read_clocks(results / "benchmarks"), scenes, environment()))

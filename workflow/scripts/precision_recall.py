@@ -17,7 +17,7 @@ cells = [(*row, column["column"]) for row in params.rows for column in params.co
 points = [
     point
     for cell, path in zip(cells, snakemake.input, strict=True)
-    for point in precision_recall.curve(*cell, read_json(Path(path)))
+    for point in precision_recall.curve(*cell, read_json(Path(path), sealed=True))
 ]
 own = own_columns(params.config["columns"])
 write_csv(Path(snakemake.output.csv), *as_table(points))

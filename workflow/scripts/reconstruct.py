@@ -40,4 +40,5 @@ rows = [
     for shape_id in progress(chosen, "reconstruction")
     for size in params.sizes
 ]
-write_csv(Path(snakemake.output[0]), ("id", "size", "hausdorff", "mean", "failure"), rows)
+header = ("id", "size", "hausdorff", "mean", "failure")
+write_csv(Path(snakemake.output[0]), header, rows, sealed=True)

@@ -64,7 +64,7 @@ def predict_test_part(
         features, train, tuple(test), seed=int(snakemake.wildcards.seed), checkpoint=checkpoint
     )
     seconds |= {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
-    write_json(Path(snakemake.output.seconds), seconds)
+    write_json(Path(snakemake.output.seconds), seconds, sealed=True)
     write_prediction(snakemake.output.prediction, prediction)
     checkpoint.unlink(missing_ok=True)
 

@@ -33,4 +33,4 @@ for number, shape in progress(list(enumerate(snakemake.params.shapes)), "page/sc
             channels |= {f"{name}: {channel}": column for channel, column in columns}
     channels["topological mask"] = surface["mask"]
     scenes.append(as_data(Scene(shape, "; ".join(note), mesh, spheres, channels)))
-write_json(Path(snakemake.output[0]), scenes)
+write_json(Path(snakemake.output[0]), scenes, sealed=True)

@@ -29,7 +29,7 @@ plugins = job.plugins(snakemake.params.plugins)
 
 def read(path: str) -> Any:
     """Read what an earlier stage found out."""
-    return read_json(Path(path))
+    return read_json(Path(path), sealed=True)
 
 
 evaluations = map(read, snakemake.input.evaluations)

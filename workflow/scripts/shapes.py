@@ -16,4 +16,4 @@ rows = [
     (shape.id, shape.label, shape.part or "", shard_of(shape.id, snakemake.params.shards))
     for shape in dataset.shapes(root)
 ]
-write_csv(Path(snakemake.output[0]), ("id", "label", "part", "shard"), rows)
+write_csv(Path(snakemake.output[0]), ("id", "label", "part", "shard"), rows, sealed=True)

@@ -17,4 +17,4 @@ seed = int(snakemake.wildcards.seed)
 train, test = split(shapes, Protocol(**snakemake.params.protocol), seed)
 part = dict.fromkeys(train, "train") | dict.fromkeys(test, "test")
 rows = [(one.id, one.label, part[one.id]) for one in shapes if one.id in part]
-write_csv(Path(snakemake.output[0]), ("id", "label", "part"), rows)
+write_csv(Path(snakemake.output[0]), ("id", "label", "part"), rows, sealed=True)

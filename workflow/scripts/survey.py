@@ -16,4 +16,4 @@ reports = {
     shape_id: json.loads(str(shard[shape_id]["report"])) for shard in shards for shape_id in shard
 }
 failures = {shape_id: reason for shard in shards for shape_id, reason in shard.failures.items()}
-write_json(Path(snakemake.output[0]), asdict(survey(reports, failures)))
+write_json(Path(snakemake.output[0]), asdict(survey(reports, failures)), sealed=True)

@@ -14,7 +14,7 @@ import job
 job.start(snakemake)
 params, plugins = snakemake.params, job.plugins(snakemake.params.plugins)
 surveys = {
-    database: read_json(Path(path))
+    database: read_json(Path(path), sealed=True)
     for database, path in zip(params.databases, snakemake.input.surveys, strict=True)
 }
 cells = [(database, method) for database in params.databases for method in params.methods]
