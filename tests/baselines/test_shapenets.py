@@ -13,7 +13,7 @@ from torch.nn.functional import conv3d
 from gipkg.baselines.shapenets import baseline as baseline_module
 from gipkg.baselines.shapenets import pretraining
 from gipkg.baselines.shapenets.baseline import EXTENT, KERNELS, SIZE, STRIDES, ShapeNets
-from gipkg.baselines.shapenets.belief import BeliefNetwork, BoltzmannMachine
+from gipkg.baselines.shapenets.belief import BeliefNetwork, BoltzmannMachine, spread
 from gipkg.baselines.shapenets.bits import pack, unpack
 from gipkg.baselines.shapenets.network import ShapeNetsNetwork
 from gipkg.baselines.shapenets.pretraining import Pretraining, pretrain
@@ -81,6 +81,15 @@ def test_a_representation_is_the_solids_of_all_rotations() -> None:
     found = np.unpackbits(represent(upright, box), axis=3, count=SIZE).astype(bool)
     assert_array_equal(found, turned_solids(box, 4, SIZE, EXTENT))
     assert found[0].any(axis=(0, 1)).sum() == EXTENT
+
+
+@pytest.mark.parametrize(("kernel", "stride"), [(6, 2), (5, 2), (4, 1), (3, 3), (2, 3)])
+def test_spreading_is_the_transposed_convolution(kernel: int, stride: int) -> None:
+    rng = torch.Generator().manual_seed(0)
+    hidden = torch.rand(2, 4, 3, 3, 3, generator=rng, dtype=torch.double)
+    weight = torch.randn(4, 5, kernel, kernel, kernel, generator=rng, dtype=torch.double)
+    expected = torch.nn.functional.conv_transpose3d(hidden, weight, stride=stride)
+    torch.testing.assert_close(spread(hidden, weight, stride), expected)
 
 
 def test_probabilities_are_those_of_the_energy() -> None:

@@ -15,7 +15,7 @@ from typing import cast
 
 import torch
 from torch import Tensor, nn
-from torch.nn.functional import avg_pool3d, conv_transpose3d, max_pool3d, softplus
+from torch.nn.functional import avg_pool3d, conv_transpose3d, max_pool3d, pad, softplus
 
 
 class BoltzmannMachine(nn.Module):
@@ -49,7 +49,7 @@ class BoltzmannMachine(nn.Module):
 
     def reconstruct(self, hidden: Tensor) -> Tensor:
         """Return the probabilities of the visible units given the hidden ones."""
-        seen = conv_transpose3d(hidden, self.convolution.weight, stride=self.stride)
+        seen = spread(hidden, self.convolution.weight, self.stride)
         return torch.sigmoid(seen + self.visible_bias)
 
     @torch.no_grad()
@@ -93,6 +93,34 @@ class BoltzmannMachine(nn.Module):
         active = (activations.detach().sigmoid() * places).sum((0, 2, 3, 4)) / number
         sparsity = cost * (cast("Tensor", self.convolution.bias) * (active - target)).sum()
         return (sparsity - hidden - visible) / self.scale
+
+
+def spread(hidden: Tensor, weight: Tensor, stride: int) -> Tensor:
+    """Return the transposed convolution ``conv_transpose3d(hidden, weight, stride=stride)``.
+
+    It is taken without a stride, to all the voxels of a block at once as channels: on processors
+    several times as fast.
+
+    Parameters
+    ----------
+    hidden : (B, F, n, n, n) tensor
+    weight : (F, C, k, k, k) tensor
+    stride : int
+
+    Returns
+    -------
+    (B, C, m, m, m) tensor, m = (n - 1) stride + k
+    """
+    (features, channels, kernel), n = weight.shape[:3], hidden.shape[-1]
+    blocks = -(-kernel // stride)
+    filled = pad(weight, (0, blocks * stride - kernel) * 3)
+    split = filled.view(features, channels, *(blocks, stride) * 3).permute(0, 1, 3, 5, 7, 2, 4, 6)
+    seen = conv_transpose3d(hidden, split.reshape(features, -1, blocks, blocks, blocks))
+    seen = seen.view(len(hidden), channels, *(stride,) * 3, *(n + blocks - 1,) * 3)
+    side = (n + blocks - 1) * stride
+    seen = seen.permute(0, 1, 5, 2, 6, 3, 7, 4).reshape(len(hidden), channels, side, side, side)
+    size = (n - 1) * stride + kernel
+    return seen[..., :size, :size, :size]
 
 
 class BeliefNetwork(nn.Module):

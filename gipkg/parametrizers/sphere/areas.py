@@ -7,6 +7,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
+
 _FILTER = 16 * np.finfo(np.float64).eps
 """Forward error bound of the triple product below, relative to its permanent."""
 
@@ -54,9 +56,23 @@ def signed_spherical_areas(
     Van Oosterom & Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng.
     1983.
     """
-    p, q, r = (sphere[faces[:, k]] for k in range(3))
-    cosines = sum(np.einsum("ij,ij->i", a, b) for a, b in ((p, q), (q, r), (r, p)))
-    return 2 * np.arctan2(triple_products(sphere, faces), 1 + cosines)
+    return _signed_areas(sphere, faces)
+
+
+@compiled
+def _signed_areas(sphere, faces):  # type: ignore[no-untyped-def]
+    areas = np.empty(len(faces))
+    for f in range(len(faces)):
+        p, q, r = sphere[faces[f, 0]], sphere[faces[f, 1]], sphere[faces[f, 2]]
+        a0, a1, a2 = q[0] - p[0], q[1] - p[1], q[2] - p[2]
+        b0, b1, b2 = r[0] - p[0], r[1] - p[1], r[2] - p[2]
+        triple = p[0] * (a1 * b2 - a2 * b1) + p[1] * (a2 * b0 - a0 * b2)
+        triple += p[2] * (a0 * b1 - a1 * b0)
+        cosines = p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+        cosines += q[0] * r[0] + q[1] * r[1] + q[2] * r[2]
+        cosines += r[0] * p[0] + r[1] * p[1] + r[2] * p[2]
+        areas[f] = 2 * np.arctan2(triple, 1 + cosines)
+    return areas
 
 
 def mean_square_distortion(
