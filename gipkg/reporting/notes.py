@@ -118,10 +118,9 @@ def seeds_note(seeds: Mapping[str, Sequence[int]]) -> str:
 def ahead_note(rows: Sequence[Row], own: str) -> str:
     """Say which columns have a higher mean than the one that is the package's own, and where."""
     ahead = [
-        f"{row.split} {metric}, {other} {theirs:.{digits}f} against {ours:.{digits}f}"
+        f"{row.split} {metric}, {other} {_against(theirs, ours, DIGITS[metric])}"
         for row in rows
         for metric in METRICS
-        for digits in [DIGITS[metric]]
         for ours in [row.cells[own].mean(metric)]
         for other, cell in row.cells.items()
         for theirs in [cell.mean(metric)]
@@ -130,6 +129,13 @@ def ahead_note(rows: Sequence[Row], own: str) -> str:
     if not ahead:
         return f"On no row does another column have a higher mean than **{own}**."
     return f"Other columns are ahead of **{own}**: {'; '.join(ahead)}."
+
+
+def _against(theirs: float, ours: float, digits: int) -> str:
+    """Say two different figures, with more digits where it takes them to tell which is more."""
+    while (said := f"{theirs:.{digits}f}") == (other := f"{ours:.{digits}f}"):
+        digits += 1
+    return f"{said} against {other}"
 
 
 def literal(text: str) -> str:

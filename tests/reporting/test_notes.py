@@ -104,5 +104,7 @@ def test_who_is_ahead_is_computed() -> None:
         "Other columns are ahead of **Ours**: A mAP, Other 0.9100 against 0.9000; "
         "B accuracy, Other 91.50 against 90.00."
     )
+    note = notes.ahead_note([row("A", Ours=(95, 0.99991), Other=(95, 0.99993))], "Ours")
+    assert note.endswith("A mAP, Other 0.99993 against 0.99991.")
     note = notes.ahead_note([row("A", Ours=(95, 0.9), Other=(95, 0.9))], "Ours")
     assert note == "On no row does another column have a higher mean than **Ours**."
