@@ -19,4 +19,4 @@ def area_residual(ratio: float) -> tuple[float, float]:
     if ratio < 1:
         return np.log(ratio), 1 / ratio
     root = np.sqrt(ratio)
-    return root - 1 / root, 0.5 * (1 + 1 / ratio) / root
+    return (ratio - 1) / root, 0.5 * (1 + 1 / ratio) / root

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from gipkg.parametrizers.variational.area_residual import area_residual
@@ -16,6 +16,8 @@ def test_the_slope_is_that_of_the_residual(ratio: float) -> None:
 
 
 @given(RATIOS)
+@example(1 + 2**-52)
+@example(1 - 2**-53)
 def test_it_has_the_sign_of_the_error_and_grows(ratio: float) -> None:
     residual, slope = area_residual(ratio)
     assert np.sign(residual) == np.sign(ratio - 1)
