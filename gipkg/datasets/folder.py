@@ -150,8 +150,8 @@ def _check_classes(path: Path, shapes: list[Shape]) -> None:
         raise DatasetLayoutError(f"{path}: two of the classes {', '.join(folders)} have one name")
     if len(full) < 2:
         raise DatasetLayoutError(
-            f"{path}: classes are told apart, and there is {len(full)}; make a folder for each, "
-            "with its meshes in it"
+            f"{path}: two classes or more are told apart, here is {len(full)}; make a folder for "
+            "each, with its meshes in it"
         )
     parted = {shape.part is not None for shape in shapes}
     if len(parted) > 1:

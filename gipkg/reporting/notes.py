@@ -90,15 +90,15 @@ def column_note(column: Mapping[str, Any], plugins: Mapping[tuple[str, str], Plu
 def failure_note(column: str, database: str, failures: Mapping[str, str]) -> str:
     """Name the shapes that a column lost, and why."""
     return (
-        f"**{column}** lost {len(failures)} shapes of {literal(database)}. In a test part each "
-        f"counts as misclassified and retrieval leaves it out: {_listing(failures)}."
+        f"**{column}** lost {len(failures)} of the shapes of {literal(database)}. In a test part "
+        f"each counts as misclassified and retrieval leaves it out: {_listing(failures)}."
     )
 
 
 def missing_note(who: str, database: str, failures: Mapping[str, str]) -> str:
     """Name the shapes that a stage or a method gives nothing for, and why."""
     return (
-        f"**{who}** gives nothing for {len(failures)} shapes of {literal(database)}: "
+        f"**{who}** gives nothing for {len(failures)} of the shapes of {literal(database)}: "
         f"{_listing(failures)}."
     )
 

@@ -84,8 +84,8 @@ def test_names_become_identifiers_without_surprises(tmp_path):
 @pytest.mark.parametrize(
     ("files", "words"),
     [
-        ([], "there is 0"),
-        (["mugs/a.off"], "there is 1"),
+        ([], "here is 0"),
+        (["mugs/a.off"], "here is 1"),
         (["a.off", "mugs/a.off"], "a.off: a mesh lies in the folder of its class"),
         (["mugs/a.off", "jugs/"], r"no mesh \(\.ply, .*\) is in the folder of the class jugs"),
         (["mugs/a.off", "jugs/a.dae"], "of the class jugs"),

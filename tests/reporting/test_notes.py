@@ -69,7 +69,7 @@ def test_a_column_names_its_methods() -> None:
 def test_failures_are_named_with_nothing_of_them_taken_as_markup() -> None:
     note = notes.failure_note("Ours", "db", {"b": "open", "a`|<b>": "two\nlines"})
     assert note.endswith("`a'¦<b>` (`two lines`); `b` (`open`).")
-    assert "lost 2 shapes of `db`" in note
+    assert "lost 2 of the shapes of `db`" in note
 
 
 def test_shapes_with_one_fault_are_named_together() -> None:

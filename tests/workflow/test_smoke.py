@@ -212,7 +212,7 @@ def test_what_a_method_fails_on_and_what_it_folds_is_said(smoke: Workdir, tmp_pa
     # Folded onto an octant, a map covers nothing as often as it covers anything back.
     assert int(row["flipped shapes"]) == int(row["other degrees"]) == int(row["shapes"])
     note = (tmp_path / "results/table_distortion.md").read_text()
-    assert f"gives nothing for {len(failed)} shapes of `tiny`" in note
+    assert f"gives nothing for {len(failed)} of the shapes of `tiny`" in note
     assert "`ParametrizationError: an odd number of vertices`" in note
     distances = read_csv(tmp_path / "results/table_reconstruction.csv")
     assert {row["picky hausdorff"] for row in distances} == {""}
