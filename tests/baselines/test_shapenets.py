@@ -121,7 +121,8 @@ def test_the_contrast_is_the_difference_of_free_energies_summed_over_all_hidden_
     with torch.no_grad():
         made.visible_bias.zero_()
         expected = (free_energy(data) - free_energy(sampled)) / 8  # In mean over 8 places.
-        torch.testing.assert_close(made.contrast(data, sampled, 0.0, 0.0), expected)
+        found = made.contrast(data, made.convolution(data), sampled, 0.0, 0.0)
+        torch.testing.assert_close(found, expected)
 
 
 def test_its_gradient_is_that_of_contrastive_divergence() -> None:
@@ -129,7 +130,7 @@ def test_its_gradient_is_that_of_contrastive_divergence() -> None:
     made = machine()
     rng = torch.Generator().manual_seed(3)
     data, sampled = torch.rand(2, 4, 1, 3, 3, 3, generator=rng).double()
-    made.contrast(data, sampled, 0.25, 0.5).backward()
+    made.contrast(data, made.convolution(data), sampled, 0.25, 0.5).backward()
     difference = 0
     for visible, sign in ((data, -1), (sampled, 1)):
         pieces = visible.unfold(2, 2, 1).unfold(3, 2, 1).unfold(4, 2, 1)
@@ -147,9 +148,8 @@ def test_filters_learn_nothing_where_there_is_nothing_under_them() -> None:
     data = torch.zeros(1, 1, 3, 3, 3).double()
     data[..., 0, 0, 0] = 1  # Under one of the eight places.
     sampled = torch.full_like(data, 0.5)
-    alone = (
-        made.contrast(data, sampled, 0.0, 0.0) + (made.visible_bias * (data - sampled)).sum() / 2
-    )
+    contrast = made.contrast(data, made.convolution(data), sampled, 0.0, 0.0)
+    alone = contrast + (made.visible_bias * (data - sampled)).sum() / 2
     here, there = (
         conv3d(one[..., :2, :2, :2], made.convolution.weight, made.convolution.bias)
         for one in (data, sampled)
@@ -184,7 +184,7 @@ def test_pretraining_lets_every_machine_reconstruct_better_than_the_mean(
     for depth, made in enumerate(belief.machines):
         data = belief.below(depth, visible)
         torch.manual_seed(1)
-        error = (data - made.sample(data, 1)).square().mean()
+        error = (data - made.sample(made(data), 1)).square().mean()
         assert error < 0.8 * (data - data.mean(0)).square().mean()
 
 

@@ -69,23 +69,29 @@ class BoltzmannMachine(nn.Module):
         self.scale.copy_(seen[seen > 0].mean() + seen_by / 4)
 
     @torch.no_grad()
-    def sample(self, visible: Tensor, steps: int) -> Tensor:
-        """Return the probabilities of the visible units after so many steps of Gibbs sampling."""
-        for _ in range(steps):
+    def sample(self, hidden: Tensor, steps: int) -> Tensor:
+        """Return the probabilities of the visible units after so many steps of Gibbs sampling.
+
+        The first is from the hidden units of these probabilities.
+        """
+        visible = self.reconstruct(torch.bernoulli(hidden.float()))
+        for _ in range(steps - 1):
             visible = self.reconstruct(torch.bernoulli(self(visible).float()))
         return visible
 
-    def contrast(self, data: Tensor, sampled: Tensor, target: float, cost: float) -> Tensor:
+    def contrast(
+        self, data: Tensor, activations: Tensor, sampled: Tensor, target: float, cost: float
+    ) -> Tensor:
         """Return what the gradient of contrastive divergence is the gradient of.
 
-        That is the free energy of the data less that of the sample, in mean over the batch; the
+        `activations` are the convolution of the data, which sampling has begun from. The contrast
+        is the free energy of the data less that of the sample, in mean over the batch; the
         hidden units in mean over the places where a filter has any data under it, since most of
         a grid of voxels is empty; the visible ones over a side of a feature map. `cost` draws
         the mean activation of every feature map towards `target` by its bias. All is divided by
         the scale: a step that is short enough for a few units is too long for many.
         """
         places = max_pool3d(data.amax(1, keepdim=True), self.kernel, self.stride) > 0
-        activations = self.convolution(data)
         difference = softplus(activations) - softplus(self.convolution(sampled))
         number = places.sum()
         hidden = (difference * places).sum() / number

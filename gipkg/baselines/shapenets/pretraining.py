@@ -103,8 +103,9 @@ def pretrain(
             if done == 0:
                 machine.start_from(data)
             target, cost = SPARSITY[depth] if depth < len(SPARSITY) else (0.0, 0.0)
-            sampled = machine.sample(data, config.gibbs_steps)
-            loss = machine.contrast(data, sampled, target, cost)
+            activations = machine.convolution(data)
+            sampled = machine.sample(activations.detach().sigmoid(), config.gibbs_steps)
+            loss = machine.contrast(data, activations, sampled, target, cost)
         _descend(optimiser, loss)
         if store and time.monotonic() - saved >= SECONDS_BETWEEN_CHECKPOINTS:
             store.save(step + 1, belief, optimiser)
