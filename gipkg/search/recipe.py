@@ -11,6 +11,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from threadpoolctl import threadpool_limits
 
 from gipkg import registry
 from gipkg.api import Descriptor, Parametrizer, SphericalMap
@@ -141,6 +142,11 @@ class ImageMaker:
         MeshFormatError, UnsupportedMesh, ParametrizationError
             As the stages do.
         """
+        # As a job of the workflow has one thread: more add up products in another order.
+        with threadpool_limits(limits=1):
+            return self._images(source, name)
+
+    def _images(self, source: trimesh.Trimesh | Path, name: str) -> NDArray[np.float32]:
         surface = prepare(source, **self.recipe.surface)
         mesh = surface.mesh
         if self.recipe.up is not None:

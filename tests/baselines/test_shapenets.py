@@ -237,7 +237,8 @@ def test_what_was_pretrained_is_what_the_classifier_starts_from() -> None:
 def test_a_network_learns_solids_and_shapes_of_a_class_are_near(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(baseline_module, "MINIMUM_STEPS", (20, 40))
+    # As many as it takes whatever the processor's kernels round to: with 40, some learned nothing.
+    monkeypatch.setattr(baseline_module, "MINIMUM_STEPS", (20, 240))
     monkeypatch.setattr(pretraining, "BATCH_SIZE", 8)
     found = SMALL.predict(SHAPES, TRAIN, TEST, device="cpu")
     assert [found.classes[k] for k in found.scores.argmax(axis=1)] == [i[0] for i in TEST]
