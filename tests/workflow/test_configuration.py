@@ -127,12 +127,16 @@ def test_a_database_asked_for_by_name_and_not_to_be_had(tmp_path: Path) -> None:
 
 
 def test_the_generated_database_stands_in_where_no_real_one_is(tmp_path: Path) -> None:
-    config = {"table1": {"databases": "auto"}, "table2": {"databases": "auto"}}
+    config = {name: {"databases": "auto"} for name in ("table1", "table2", "distortion")}
     done = Workdir(tmp_path).run("--dry-run", config=config)
     assert "results/evaluation/table1/articulated/ours/Articulated1.json" in done.stdout
     assert "results/evaluation/table2/furniture/ours/Furniture2.json" in done.stdout
     for absent in ("table1/shrec11", "table1/furniture", "table2/articulated", "table2/modelnet10"):
         assert f"results/evaluation/{absent}" not in done.stdout
+    # Few shapes, without a protocol, are there to be mapped by every method.
+    assert "results/distortion/articulated-few/authalic.csv" in done.stdout
+    for absent in ("distortion/articulated/", "evaluation/table1/articulated-few"):
+        assert f"results/{absent}" not in done.stdout
 
 
 def test_real_databases_take_their_rows(tmp_path: Path, data_root: Path) -> None:

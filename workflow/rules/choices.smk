@@ -35,8 +35,8 @@ def chosen_methods():
 def chosen_databases(section, suits, upright=False):
     """Return the databases that a section asks for; by default the real ones at hand that suit.
 
-    Where there is none of them, the generated ones stand in. By default shapes that stand upright
-    and shapes that do not are never mixed.
+    Where there is none of them, the generated ones that suit stand in. By default shapes that
+    stand upright and shapes that do not are never mixed.
     """
     asked = config[section]["databases"]
     if asked != "auto":
@@ -45,10 +45,14 @@ def chosen_databases(section, suits, upright=False):
         return asked
     root = Path(config["data_root"])
     plugins = {name: dataset_plugin(name) for name in config["datasets"]}
-    plugins = {name: one for name, one in plugins.items() if (one.upright is not None) == upright}
-    real = [name for name, plugin in plugins.items() if not plugin.tags.generated]
-    found = [name for name in real if suits(name) and plugins[name].available(root)]
-    return found or [name for name in plugins if name not in real]
+    fitting = [
+        name
+        for name, plugin in plugins.items()
+        if (plugin.upright is not None) == upright and suits(name)
+    ]
+    generated = [name for name in fitting if plugins[name].tags.generated]
+    real = [name for name in fitting if name not in generated and plugins[name].available(root)]
+    return real or generated
 
 
 def chosen_tables():
@@ -161,7 +165,7 @@ def dataset_plugin(name):
 def protocols_of(database):
     """Return the protocols of a database by name, as gipkg.api.Protocol."""
     own = config["datasets"][database].get("protocols")
-    if not own:
+    if own is None:
         return dataset_plugin(database).protocols
     return {
         name: Protocol(**chosen) if isinstance(chosen, dict) else Protocol(chosen)
