@@ -69,10 +69,13 @@ def command(
     def work(name: str) -> Facts:
         nonlocal written
         before = index.entries.get(name)
-        signature = index.update(name, files[name], network)
-        if time.monotonic() - written > SECONDS_BETWEEN_WRITES:
-            index.write(target)
-            written = time.monotonic()
+        try:
+            signature = index.update(name, files[name], network)
+        finally:
+            # What was done is kept, though all that comes after it may fail.
+            if time.monotonic() - written > SECONDS_BETWEEN_WRITES:
+                index.write(target)
+                written = time.monotonic()
         return {"class": signature.label, "known": index.entries[name] is before}
 
     try:

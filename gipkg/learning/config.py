@@ -2,8 +2,8 @@
 
 The supplement that fixed the architecture was never published. Section 5 of the paper gives
 three convolutions, a fully connected layer of 48, a softmax, no padding inside and 30 epochs;
-the rest is our choice and stands here as defaults, chosen on splits of the training parts of
-SHREC'11 and McGill.
+the rest is our choice and stands here as defaults, chosen on splits of training parts of SHREC'11
+and McGill (``docs/choices.md``).
 
 As in the paper, with the raw HKS, is ``pooling="local"``, ``batch_normalisation=False`` and 30
 ``epochs`` of ``sgd`` at 0.01 in ``steps`` with a ``weight_decay`` of 1e-4, and ``scaling="joint"``.
@@ -70,7 +70,7 @@ class NetworkConfig(BaseModel):
 
 
 class TrainingConfig(BaseModel):
-    """How the network is trained; nothing in it is ever chosen on a test part."""
+    """How the network is trained; no run chooses anything in it by a test part."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

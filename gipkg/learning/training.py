@@ -123,9 +123,9 @@ def train(
     bfloat16 = computes_in_bfloat16(device, config.precision)
     store, start = None, 0
     if checkpoint is not None:
-        description = f"{network} {config.model_dump_json()} {seed} {device.type} {bfloat16}"
+        how = f"{network.together} {config.model_dump_json()} {seed} {device.type} {bfloat16}"
         weights = [value.cpu() for value in network.state_dict().values()]
-        store = Checkpoint(checkpoint, fingerprint(description, classes, views, *weights))
+        store = Checkpoint(checkpoint, fingerprint(f"{network} {how}", classes, views, *weights))
         start = store.restore(network, optimiser, device)
 
     flat, (shapes, of_a_shape) = views.flatten(0, 1), views.shape[:2]

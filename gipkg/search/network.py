@@ -12,6 +12,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from gipkg.errors import DamagedFileError
 from gipkg.fingerprints import fingerprint_module
 from gipkg.learning.model import Model, load_model
 from gipkg.search.recipe import ImageMaker, Recipe
@@ -75,17 +76,32 @@ class SignatureNetwork:
         content = path.read_bytes()
         model = load_model(path, device)
         maker = ImageMaker.of(Recipe.of(model.about, path), allowed)
-        code = [fingerprint_module("gipkg.search.recipe"), *maker.code()]
+        code = [fingerprint_module("gipkg.search.network"), *maker.code()]
         key = content_key({"network": sha256(content).hexdigest(), "code": code})
         return cls(content, key, model, maker)
 
     @classmethod
     def of(cls, content: bytes, allowed: Collection[str] = ()) -> SignatureNetwork:
-        """Make a network of the bytes of its file, as an index holds them."""
+        """Make a network of the bytes of its file, as an index holds them.
+
+        Raises
+        ------
+        DamagedFileError
+            This version of gipkg does not read them.
+        PluginError
+            Its images need a plugin that is not there or not allowed.
+        """
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "network.npz"
             path.write_bytes(content)
-            return cls.read(path, allowed)
+            try:
+                return cls.read(path, allowed)
+            except DamagedFileError as error:
+                raise DamagedFileError(
+                    "the network in the index is none that this version of gipkg reads; train it "
+                    "again and make the index anew: gipkg index FOLDER --network "
+                    "results/learning/.../*.model.npz --force"
+                ) from error
 
     def signature(self, source: trimesh.Trimesh | Path) -> Signature:
         """Show a mesh to the network.

@@ -19,6 +19,7 @@ from gipkg.baselines.shapenets.network import ShapeNetsNetwork
 from gipkg.baselines.shapenets.pretraining import Pretraining, pretrain
 from gipkg.baselines.voxels import turned_solids
 from gipkg.descriptors.operators import Operators
+from gipkg.errors import LearningError
 from gipkg.learning import training
 from gipkg.learning.device import reproducible
 from gipkg.testing import meshes
@@ -274,3 +275,10 @@ def test_a_killed_training_ends_as_an_undisturbed_one(
     assert_array_equal(found.scores, expected.scores)
     assert_array_equal(found.embeddings, expected.embeddings)
     assert [path.name for path in tmp_path.iterdir()] == ["state.pt"]
+
+
+def test_a_pretraining_that_diverges_names_its_own_rate(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(baseline_module, "MINIMUM_STEPS", (30, 4))
+    wild = SMALL.model_copy(update={"pretraining_rate": 1e30})
+    with pytest.raises(LearningError, match="lower pretraining_rate"):
+        wild.predict(SHAPES, TRAIN, TEST, device="cpu")

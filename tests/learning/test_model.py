@@ -235,6 +235,8 @@ def test_the_checkpoint_of_another_training_is_not_used(
     assert_equal(run(checkpoint=path), undisturbed)
     run(checkpoint=path, network=SMALL.model_copy(update={"dropout": 0.3}))
     assert_equal(run(checkpoint=path), undisturbed)
+    run(checkpoint=path, network=SMALL.model_copy(update={"together": 2}))
+    assert_equal(run(checkpoint=path), undisturbed)
     run({**IMAGES, TRAIN[0]: IMAGES[TRAIN[0]] + 1e-3}, checkpoint=path)
     assert_equal(run(checkpoint=path), undisturbed)
 

@@ -11,9 +11,11 @@ from scipy.spatial.transform import Rotation
 from gipkg.api import SphericalMap
 from gipkg.descriptors.operators import Operators
 from gipkg.errors import DamagedFileError, PluginError
+from gipkg.fingerprints import _closure, fingerprint_module
 from gipkg.images.cuts import standard_cuts
 from gipkg.images.lookup import lookup
 from gipkg.registry import create
+from gipkg.search import network as module
 from gipkg.search.network import SignatureNetwork
 from gipkg.search.recipe import ImageMaker, Recipe
 from tests.search.trained import RECIPE, SHAPES, mesh, write_network
@@ -113,3 +115,20 @@ def test_code_that_a_file_names_is_not_run_unless_allowed(
     assert not (tmp_path / "ran").exists()
     ImageMaker.of(recipe, [target])
     assert (tmp_path / "ran").exists()
+
+
+def test_a_network_in_an_index_that_is_not_read_names_the_way_out(tmp_path: Path) -> None:
+    other = tmp_path / "other.npz"
+    write_network(other, {**RECIPE, "of another version": 1})
+    with pytest.raises(DamagedFileError, match=r"network in the index .* --force") as caught:
+        SignatureNetwork.of(other.read_bytes())
+    # The bytes were in a file of no interest.
+    assert "network.npz" not in str(caught.value)
+
+
+def test_the_key_of_an_index_counts_the_code_of_the_network(monkeypatch, network_file) -> None:
+    key = SignatureNetwork.read(network_file).key
+    edited = f"{fingerprint_module('gipkg.search.network')} edited"
+    monkeypatch.setattr(module, "fingerprint_module", {"gipkg.search.network": edited}.__getitem__)
+    assert SignatureNetwork.read(network_file).key != key
+    assert "gipkg.learning.views" in _closure(frozenset({"gipkg.search.network"}))

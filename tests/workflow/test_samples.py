@@ -57,6 +57,8 @@ def test_shapes_without_features_are_in_neither_part_and_the_time_is_kept_apart(
         assert test == ("s3", "s4")
         assert seed == 7
         np.testing.assert_array_equal(features["s1"], [1, 1])
+        asked.append(checkpoint)
+        checkpoint.parent.mkdir(exist_ok=True)
         checkpoint.write_text("half done")
         return PLAIN
 
@@ -66,7 +68,9 @@ def test_shapes_without_features_are_in_neither_part_and_the_time_is_kept_apart(
             prediction=str(tmp_path / "p.npz"), seconds=str(tmp_path / "p.json")
         ),
         wildcards=SimpleNamespace(seed="7"),
+        params={"code": "of today"},
     )
+    asked: list[Path] = []
     for resumed in (False, True):
         samples.predict_test_part(job, samples.Features([str(shard)], "vector"), predict)
         seconds = read_json(tmp_path / "p.json", sealed=True)
@@ -74,6 +78,12 @@ def test_shapes_without_features_are_in_neither_part_and_the_time_is_kept_apart(
         assert set(seconds) == {"wall", "cpu"}
         assert min(seconds.values()) > 0
         require_equal(samples.read_prediction(str(tmp_path / "p.npz")), PLAIN)
-        checkpoint = tmp_path / "p.pt"
-        assert not checkpoint.exists()
-        checkpoint.write_text("left by a killed run")
+        assert not asked[-1].parent.exists()
+        asked[-1].parent.mkdir()
+        asked[-1].write_text("left by a killed run")
+    assert asked[0] == asked[1]
+    # What other code has left is not for this one.
+    job.params["code"] = "of tomorrow"
+    samples.predict_test_part(job, samples.Features([str(shard)], "vector"), predict)
+    assert asked[2] != asked[1]
+    assert not read_json(tmp_path / "p.json", sealed=True)["resumed"]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import shutil
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from gipkg.files import read_csv, write_arrays, write_json
 from gipkg.learning.prediction import Prediction
-from gipkg.shards import Shard
+from gipkg.shards import Shard, content_key
 from numpy.typing import NDArray
 
 
@@ -54,7 +56,9 @@ def predict_test_part(
     predict : callable
         Called as ``predict(features, train, test, seed=…, checkpoint=…)``.
     """
-    checkpoint = Path(snakemake.output.prediction).with_suffix(".pt")
+    work = Path(snakemake.output.prediction).with_suffix(".work")
+    # Named by parameters and code: what other code had half trained is never gone on with.
+    checkpoint = work / f"{content_key(dict(snakemake.params.items()))}.pt"
     parts = (read_split(snakemake.input.split, part) for part in ("train", "test"))
     train, test = ({i: part[i] for i in part if i in features} for part in parts)
     # Of a training that goes on from a checkpoint, only the rest is seen.
@@ -66,7 +70,8 @@ def predict_test_part(
     seconds |= {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu}
     write_json(Path(snakemake.output.seconds), seconds, sealed=True)
     write_prediction(snakemake.output.prediction, prediction)
-    checkpoint.unlink(missing_ok=True)
+    with suppress(FileNotFoundError):
+        shutil.rmtree(work)
 
 
 def write_prediction(path: str, prediction: Prediction) -> None:

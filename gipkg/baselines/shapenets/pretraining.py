@@ -15,6 +15,7 @@ from torch.optim import SGD
 
 from gipkg.baselines.shapenets.belief import BeliefNetwork, BoltzmannMachine
 from gipkg.baselines.shapenets.bits import unpack
+from gipkg.errors import LearningError
 from gipkg.learning.checkpoint import Checkpoint, fingerprint
 from gipkg.learning.device import computes_in_bfloat16
 from gipkg.learning.training import SECONDS_BETWEEN_CHECKPOINTS, batches
@@ -74,6 +75,8 @@ def pretrain(
 
     Raises
     ------
+    LearningError
+        The pre-training diverged.
     DamagedFileError
         The checkpoint cannot be read.
     """
@@ -104,6 +107,8 @@ def pretrain(
                 machine.start_from(data)
             target, cost = SPARSITY[depth] if depth < len(SPARSITY) else (0.0, 0.0)
             activations = machine.convolution(data)
+            if not torch.isfinite(activations.detach().sum()):
+                raise LearningError("pre-training diverged: lower pretraining_rate")
             sampled = machine.sample(activations.detach().sigmoid(), config.gibbs_steps)
             loss = machine.contrast(data, activations, sampled, target, cost)
         _descend(optimiser, loss)
