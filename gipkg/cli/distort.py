@@ -11,7 +11,6 @@ from gipkg.cli._batch import Facts, counted, for_each, joined
 from gipkg.cli._inputs import PREPARE, preparation, read_map, repairs
 from gipkg.cli._options import files_argument, json_option
 from gipkg.cli._plugins import assigned, build, method_option, parameter_option, resolve
-from gipkg.errors import UnsupportedMesh
 
 
 @click.command()
@@ -33,18 +32,9 @@ def command(
     options = preparation(chosen[PREPARE])
 
     def work(path: Path) -> Facts:
-        import numpy as np
-
         from gipkg.evaluation.distortion import distortion
-        from gipkg.surfaces.validation import face_areas
 
         spherical_map, _, facts = read_map(path, parametrizer, options)
-        mesh = spherical_map.mesh
-        if not face_areas(np.asarray(mesh.vertices), np.asarray(mesh.faces)).all():
-            raise UnsupportedMesh(
-                f"{path}: faces of its mesh have no area, so that nothing can be said of areas; "
-                "gipkg prepare resolves them"
-            )
         measured = distortion(spherical_map)
         values = {field.name: getattr(measured, field.name) for field in fields(measured)}
         return {**facts, **{key: x for key, x in values.items() if isinstance(x, int | float)}}

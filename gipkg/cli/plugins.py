@@ -11,13 +11,13 @@ from typing import Any
 import click
 
 from gipkg import registry
+from gipkg.cli._options import folder_type
 from gipkg.cli._plugins import require_no_file
 from gipkg.cli._tables import table
 from gipkg.errors import UnknownPluginError, did_you_mean
 from gipkg.registry import KINDS, Kind, PluginRef
 
 kind_option = click.option("--kind", type=click.Choice(KINDS), help="Only this kind of plugin.")
-folder_type = click.Path(file_okay=False, path_type=Path)
 
 
 @click.group()
@@ -106,8 +106,9 @@ def check(name: str, kind: Kind | None, data_root: Path | None, expected: tuple[
     from gipkg.testing import run_checks
 
     ref = _find(name, kind)
+    plugin = registry.create(ref.kind, ref.name)
     try:
-        report = run_checks(registry.load(ref)(), ref.name, _expected_failures(expected), data_root)
+        report = run_checks(plugin, ref.name, _expected_failures(expected), data_root)
     except ValueError as error:
         raise click.BadParameter(str(error), param_hint="--expect-failure") from error
     for outcome in report.outcomes:

@@ -65,7 +65,13 @@ class Curvature(Descriptor):
         return tuple(prefix + name for name in CHANNELS[self.quantity])
 
     def describe(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
-        """Diffuse the measures of `mesh`; (V, 2) or (V, 1)."""
+        """Diffuse the measures of `mesh`; (V, 2) or (V, 1).
+
+        Raises
+        ------
+        UnsupportedMesh
+            The mesh is not closed, or its faces are not oriented alike.
+        """
         measures = curvature_measures(mesh)
         unit = operators.mass.sum()
         if self.quantity == "gaussian":

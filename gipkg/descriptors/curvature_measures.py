@@ -10,6 +10,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from gipkg.descriptors.vertex_normals import vertex_normals
+from gipkg.errors import UnsupportedMesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +64,11 @@ def curvature_measures(mesh: trimesh.Trimesh) -> Measures:
 
     An edge of length l and exterior dihedral angle β, positive if convex, has β l of principal
     curvature across and none along itself.
+
+    Raises
+    ------
+    UnsupportedMesh
+        The mesh is not closed, or its faces are not oriented alike.
     """
     vertices = np.asarray(mesh.vertices, dtype=np.float64)
     faces = np.asarray(mesh.faces)
@@ -92,8 +98,12 @@ def _edges(faces: NDArray[np.int64], vertices: int) -> tuple[NDArray[np.int64], 
     """Return tail, head, left and right face (E,) of every edge of a closed oriented mesh."""
     tails, heads = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     face = np.repeat(np.arange(len(faces)), 3)
-    forward = np.argsort(tails * vertices + heads)
-    backward = np.argsort(heads * vertices + tails)
+    ahead, back = tails * vertices + heads, heads * vertices + tails
+    forward, backward = np.argsort(ahead), np.argsort(back)
+    if not np.array_equal(ahead[forward], back[backward]):
+        raise UnsupportedMesh(
+            "curvature needs a closed mesh whose faces are oriented alike: gipkg.prepare makes one"
+        )
     left, right = face[forward], face[backward]
     once = tails[forward] < heads[forward]
     return tails[forward][once], heads[forward][once], left[once], right[once]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, PositiveFloat
 
 from gipkg.api import Descriptor, DescriptorTags
-from gipkg.descriptors.modes import modes_at_unit_area
+from gipkg.descriptors.modes import waves_at_unit_area
 
 if TYPE_CHECKING:
     import trimesh
@@ -46,7 +46,13 @@ class GreensMeanSignature(Descriptor):
         return tuple(f"{prefix}-{moment:.4g}" for moment in self.moments)
 
     def describe(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
-        """Sum the eigenpairs of `operators`; (V, C)."""
-        eigenvalues, squares = modes_at_unit_area(operators.spectrum)
-        signature = squares[:, 1:] @ eigenvalues[1:, None] ** -np.array(self.moments)
+        """Sum the eigenpairs of `operators`; (V, C).
+
+        Raises
+        ------
+        UnsupportedMesh
+            Only the constant mode is known.
+        """
+        eigenvalues, squares = waves_at_unit_area(operators.spectrum)
+        signature = squares @ eigenvalues[:, None] ** -np.array(self.moments)
         return np.log(signature) if self.logarithm else signature

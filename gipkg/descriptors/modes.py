@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gipkg.errors import UnsupportedMesh
+
 if TYPE_CHECKING:
     from gipkg.descriptors.operators import Spectrum
 
@@ -31,3 +33,19 @@ def modes_at_unit_area(spectrum: Spectrum) -> tuple[NDArray[np.float64], NDArray
     whole = spectrum.eigenvalues < last * (1 - SAME_EIGENVALUE)
     area = spectrum.mass.sum()
     return area * spectrum.eigenvalues[whole], area * spectrum.eigenvectors[:, whole] ** 2
+
+
+def waves_at_unit_area(spectrum: Spectrum) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return what :func:`modes_at_unit_area` does, without the constant mode.
+
+    Raises
+    ------
+    UnsupportedMesh
+        There is no other mode.
+    """
+    eigenvalues, squares = modes_at_unit_area(spectrum)
+    if len(eigenvalues) < 2:
+        raise UnsupportedMesh(
+            "of its modes only the constant one is known: compute more eigenpairs, or refine it"
+        )
+    return eigenvalues[1:], squares[:, 1:]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
 from gipkg.api import Descriptor, DescriptorTags
-from gipkg.descriptors.modes import modes_at_unit_area
+from gipkg.descriptors.modes import waves_at_unit_area
 
 if TYPE_CHECKING:
     import trimesh
@@ -70,10 +70,16 @@ class WaveKernelSignature(Descriptor):
         return tuple(f"wks-{energy:.4g}" for energy in self.schedule())
 
     def describe(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
-        """Sum the eigenpairs of `operators`; (V, C), not negative, with mean 1 on the surface."""
-        eigenvalues, squares = modes_at_unit_area(operators.spectrum)
-        offsets = np.log(eigenvalues[1:, None]) - np.log(self.schedule())
+        """Sum the eigenpairs of `operators`; (V, C), not negative, with mean 1 on the surface.
+
+        Raises
+        ------
+        UnsupportedMesh
+            Only the constant mode is known.
+        """
+        eigenvalues, squares = waves_at_unit_area(operators.spectrum)
+        offsets = np.log(eigenvalues[:, None]) - np.log(self.schedule())
         exponents = -((offsets / self.width) ** 2) / 2
         # Relative to the nearest mode, or an energy far from all of them would underflow.
         weights = np.exp(exponents - exponents.max(axis=0))
-        return squares[:, 1:] @ (weights / weights.sum(axis=0))
+        return squares @ (weights / weights.sum(axis=0))

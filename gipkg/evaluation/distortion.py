@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.api import SphericalMap
+from gipkg.errors import UnsupportedMesh
 from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
 from gipkg.surfaces.validation import face_areas
 
@@ -59,9 +60,19 @@ def distortion(spherical_map: SphericalMap) -> Distortion:
     Returns
     -------
     Distortion
+
+    Raises
+    ------
+    UnsupportedMesh
+        A face of the mesh has none.
     """
     faces = np.asarray(spherical_map.mesh.faces)
     on_mesh = face_areas(np.asarray(spherical_map.mesh.vertices), faces)
+    if not on_mesh.all():
+        raise UnsupportedMesh(
+            "faces of its mesh have no area, so that nothing can be said of areas; gipkg.prepare "
+            "resolves them"
+        )
     on_mesh *= 4 * np.pi / on_mesh.sum()
     on_sphere = signed_spherical_areas(spherical_map.sphere, faces)
     ratio = on_sphere / on_mesh

@@ -14,6 +14,7 @@ from gipkg.api import Volume
 from gipkg.descriptors.curvature import Curvature
 from gipkg.descriptors.curvature_measures import curvature_measures
 from gipkg.descriptors.operators import Operators
+from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import prepare
 
 AXES = np.array([1.0, 1.5, 2.5])
@@ -168,3 +169,15 @@ def test_it_survives_the_remeshing_of_a_solid() -> None:
     assert (np.abs(np.mean(found - expected, axis=0)) < 0.06).all()
     for i, least in ((0, 0.84), (1, 0.91)):
         assert np.corrcoef(found[:, i], expected[:, i])[0, 1] > least
+
+
+@pytest.mark.parametrize("fault", ["open", "turned"])
+def test_a_mesh_whose_edges_do_not_pair_is_refused(pebble, fault: str) -> None:
+    faces = np.array(pebble.faces)
+    if fault == "open":
+        faces = faces[1:]
+    else:
+        faces[0] = faces[0, ::-1]
+    mesh = trimesh.Trimesh(pebble.vertices, faces, process=False)
+    with pytest.raises(UnsupportedMesh, match=r"closed mesh .* gipkg\.prepare"):
+        Curvature().describe(mesh, Operators(pebble))

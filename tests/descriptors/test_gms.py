@@ -14,6 +14,7 @@ from scipy.integrate import quad
 from gipkg.descriptors import describe
 from gipkg.descriptors.gms import GreensMeanSignature
 from gipkg.descriptors.operators import Operators
+from gipkg.errors import UnsupportedMesh
 
 RAW = {"logarithm": False}
 
@@ -60,3 +61,8 @@ def test_channels_are_named_by_their_power_and_the_logarithm_is_one(pebble) -> N
     assert_allclose(descriptor.describe(pebble, Operators(pebble)), np.log(raw))
     with pytest.raises(ValidationError):
         GreensMeanSignature(moments=())
+
+
+def test_a_constant_alone_is_no_wave(pebble) -> None:
+    with pytest.raises(UnsupportedMesh, match="compute more eigenpairs"):
+        describe(pebble, "gms", Operators(pebble, 2))

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from gipkg.descriptors.operators import Operators
 from gipkg.descriptors.wks import WaveKernelSignature
+from gipkg.errors import UnsupportedMesh
 from gipkg.testing import meshes
 
 
@@ -75,3 +76,9 @@ def test_motion_scale_and_numbering_do_not_matter(pebble, seed: int, exponent: f
 def test_parameters_out_of_bounds_are_refused(parameters: dict) -> None:
     with pytest.raises(ValidationError):
         WaveKernelSignature(**parameters)
+
+
+def test_a_constant_alone_is_no_wave(pebble) -> None:
+    # The last eigenspace may not be whole, so that of two eigenpairs the constant is left.
+    with pytest.raises(UnsupportedMesh, match="compute more eigenpairs"):
+        WaveKernelSignature().describe(pebble, Operators(pebble, 2))

@@ -44,6 +44,19 @@ def test_a_right_plugin_passes(check) -> None:
     check()
 
 
+class Pair(Balls):
+    tags: ClassVar[DatasetTags] = replace(Balls.tags, shapes=2)
+    protocols: ClassVar[dict[str, Protocol]] = {}
+
+    def shapes(self, root):
+        return super().shapes(root)[3:5]
+
+
+@pytest.mark.parametrize("name", ["holds_different_shapes", "loads_the_same_shape_twice"])
+def test_a_database_may_have_few_shapes(name: str, tmp_path: Path) -> None:
+    getattr(suite, name)(Pair(), tmp_path)
+
+
 class Unsorted(Balls):
     def shapes(self, root):
         return super().shapes(root)[::-1]
