@@ -12,9 +12,23 @@ import scipy.sparse as sp
 from cvxopt import cholmod
 from numpy.typing import NDArray
 
+from gipkg.errors import ParametrizationError
 
-class NotPositiveDefinite(ArithmeticError):
-    """The matrix has no Cholesky factorization in double precision."""
+
+class NotPositiveDefinite(ParametrizationError, ArithmeticError):
+    """The matrix has no Cholesky factorization in double precision.
+
+    Parameters
+    ----------
+    fault : str
+        What was met.
+    """
+
+    def __init__(self, fault: str) -> None:
+        super().__init__(
+            f"{fault}; the mesh or its map has faces without area: remesh it, or choose another "
+            "start"
+        )
 
 
 class Cholesky:

@@ -44,7 +44,7 @@ class ParametrizationError(GipkgError):
 
 
 class DatasetNotFound(GipkgError):
-    """A database's files are neither under the data root nor to be downloaded."""
+    """A database's files are neither at hand nor to be had, or no shape has the identifier."""
 
 
 class DatasetLayoutError(GipkgError):

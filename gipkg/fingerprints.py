@@ -123,12 +123,17 @@ def _closure(names: set[str] | frozenset[str]) -> dict[str, str]:
     while pending:
         name = pending.pop()
         path = _path_of(name)
-        if path is None or name in digests or name in _NOT_COMPUTING:
+        if path is None or name in digests or not _computes(name):
             continue
         source = _read(path)
         digests[name] = source.digest
         pending |= source.imports
     return digests
+
+
+def _computes(name: str) -> bool:
+    # One of them, the contracts, is a package, whose modules are imported directly, too.
+    return ".".join(name.split(".")[:2]) not in _NOT_COMPUTING
 
 
 def _modules_below(name: str, path: Path) -> set[str]:

@@ -13,12 +13,13 @@ import logging
 import shutil
 import time
 import zipfile
+import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from hashlib import file_digest, sha256
 from pathlib import Path
 from types import MappingProxyType
-from typing import IO, Any
+from typing import Any
 from urllib.parse import quote, unquote
 
 import numpy as np
@@ -37,6 +38,9 @@ NO_FAILURES: Mapping[str, str] = MappingProxyType({})
 _FAILURES = "failures"
 _NOT_THE_SHAPES_FAULT = (OSError, MemoryError, ImportError, DamagedFileError)
 """Faults of the machine or the installation: they end the job, a rerun takes it up again."""
+_DAMAGE = (ValueError, KeyError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error)
+"""What reading a damaged ``.npz`` raises; a changed bit of the directory can make a member
+encrypted, or of another or an unknown compression."""
 
 log = logging.getLogger(__name__)
 
@@ -210,24 +214,19 @@ def _clock(part: Path) -> Path:
 def _pack(out: Path, done: Mapping[str, Path], failures: Mapping[str, str]) -> None:
     """Copy the members of the parts, never more than a buffer in memory."""
     with atomic(out) as stream, zipfile.ZipFile(stream, "w") as archive:
-        with _member(archive, _FAILURES) as target:
+        with archive.open(f"{_FAILURES}.npy", "w", force_zip64=True) as target:
             np.lib.format.write_array(
                 target, np.array(json.dumps(failures, sort_keys=True)), allow_pickle=False
             )
         for shape_id, part in done.items():
             with zipfile.ZipFile(part) as source:
                 for name in sorted(source.namelist()):
-                    stem = name.removesuffix(".npy")
+                    member = f"{_quote(shape_id)}/{name}"
                     with (
                         source.open(name) as content,
-                        _member(archive, f"{_quote(shape_id)}/{stem}") as target,
+                        archive.open(member, "w", force_zip64=True) as target,
                     ):
                         shutil.copyfileobj(content, target, 1 << 20)
-
-
-def _member(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
-    # A ZipInfo carries a fixed date where a plain name would carry the clock's.
-    return archive.open(zipfile.ZipInfo(f"{name}.npy"), "w", force_zip64=True)
 
 
 def _quote(text: str) -> str:
@@ -241,7 +240,7 @@ def _reading(path: Path) -> Iterator[NpzFile]:
     try:
         with np.load(path, allow_pickle=False) as archive:
             yield archive
-    except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+    except _DAMAGE as error:
         raise DamagedFileError(
             f"{path}: not a whole shard ({error}); delete it and run the command again"
         ) from error

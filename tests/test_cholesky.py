@@ -5,6 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gipkg.cholesky import Cholesky, NotPositiveDefinite
+from gipkg.errors import ParametrizationError
 
 
 def _definite(seed: int, size: int) -> sp.csr_array:
@@ -38,5 +39,6 @@ def test_one_analysis_serves_many_matrices() -> None:
 @pytest.mark.parametrize("values", [[1.0, 2.0, 1.0], [1.0, 0.0, -1.0], [np.nan, 0.0, 1.0]])
 def test_what_is_not_positive_definite_is_refused(values: list[float]) -> None:
     cholesky = Cholesky(np.array([0, 1, 1]), np.array([0, 0, 1]), 2)
-    with pytest.raises(NotPositiveDefinite):
+    with pytest.raises(NotPositiveDefinite, match="remesh it, or choose another start") as caught:
         cholesky.factorize(np.array(values))
+    assert isinstance(caught.value, ParametrizationError)

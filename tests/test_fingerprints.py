@@ -91,6 +91,26 @@ def test_a_package_stands_for_all_its_modules_and_what_they_import(library: Path
     assert fingerprints.fingerprint_module("gipkg.images") != images
 
 
+@pytest.mark.parametrize(
+    ("module", "used"),
+    [
+        ("parametrizers.optimal_transport", "parametrizers.conformal"),
+        ("reporting.figures.figure1", "descriptors.curvature"),
+        ("reporting.figures.figure5", "descriptors.hks"),
+    ],
+)
+def test_a_plugin_that_another_module_uses_counts_with_it(module: str, used: str) -> None:
+    assert f"gipkg.{used}" in fingerprints._closure({f"gipkg.{module}"})
+
+
+def test_the_contracts_do_not_count_wherever_they_are_imported_from() -> None:
+    package = fingerprints._ROOT / "surfaces" / "__init__.py"
+    names = fingerprints._modules_below("gipkg.surfaces", package)
+    closure = fingerprints._closure(names)
+    assert names <= closure.keys()
+    assert not [name for name in closure if name.startswith("gipkg.api")]
+
+
 def test_an_absent_module_is_an_error(library: Path) -> None:
     with pytest.raises(ValueError, match=r"gipkg\.imags"):
         fingerprints.fingerprint_module("gipkg.imags")

@@ -197,6 +197,24 @@ def test_a_flipped_bit_is_found_and_does_not_count_as_a_failed_shape(tmp_path: P
         map_shard(["a"], damaged.__getitem__, tmp_path / "out.npz", tmp_path / "work", "", key="k")
 
 
+def test_a_flipped_bit_in_the_directory_is_found_or_changes_nothing(tmp_path: Path) -> None:
+    path, values = tmp_path / "in.npz", np.arange(500.0)
+    map_shard(["a"], lambda _: {"x": values}, path, tmp_path / "work", "", key="k")
+    content = path.read_bytes()
+    start = content.rindex(b"PK\1\2")
+    assert content[start + 46 :].startswith(b"a/x.npy")
+    found = []
+    for bit in range(32):  # flags, then the compression
+        damaged = bytearray(content)
+        damaged[start + 8 + bit // 8] ^= 1 << bit % 8
+        path.write_bytes(damaged)
+        try:
+            np.testing.assert_array_equal(Shard.open(path)["a"]["x"], values)
+        except DamagedFileError:
+            found.append(bit)
+    assert {0, *range(16, 32)} <= set(found)  # encrypted, compressed
+
+
 def test_pickles_are_neither_written_nor_read(tmp_path: Path) -> None:
     map_shard(
         ["a"], lambda _: {"x": np.array([{}])}, tmp_path / "o.npz", tmp_path / "w", "", key="k"

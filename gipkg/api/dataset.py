@@ -131,4 +131,12 @@ class Dataset(Plugin):
 
     @abstractmethod
     def load(self, root: Path, shape_id: str) -> trimesh.Trimesh | Volume:
-        """Read one shape as it is in the database: a mesh, unrepaired, or a volume."""
+        """Read one shape as it is in the database: a mesh, unrepaired, or a volume.
+
+        Raises
+        ------
+        DatasetNotFound
+            The files are not there, or no shape has that identifier.
+        MeshFormatError
+            The shape's file cannot be read.
+        """

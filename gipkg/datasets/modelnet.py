@@ -17,7 +17,7 @@ from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 from gipkg.api.dataset import Axis, Part
 from gipkg.datasets.archives import fetch_archive, is_intact
 from gipkg.datasets.zip_archives import read_zip_member, zip_names
-from gipkg.errors import DatasetNotFound
+from gipkg.errors import DatasetNotFound, MeshFormatError
 from gipkg.formats.reading import parse_mesh
 
 if TYPE_CHECKING:
@@ -88,7 +88,10 @@ class ModelNetMeshes(ModelNet):
         The checksum of the archive is verified when it is fetched and when its shapes are
         listed; that of a model, when it is read from the archive.
         """
-        return self._is_whole(self._models(root))
+        try:
+            return self._is_whole(self._models(root))
+        except MeshFormatError:  # An archive that cannot be listed is to be fetched again.
+            return False
 
     def fetch(self, root: Path) -> None:
         """Download the archive, unless it or its folder is there."""

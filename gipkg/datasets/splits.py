@@ -35,7 +35,7 @@ def split(shapes: Sequence[Shape], protocol: Protocol, seed: int) -> Parts:
         train, test = random_split(shapes, protocol.train_per_class, seed)
     tested = frozenset(test)
     sizes = Counter(shape.label for shape in shapes if shape.id in tested)
-    if max(sizes.values()) < 2:
+    if max(sizes.values(), default=0) < 2:
         raise SplitError(
             "no class has two shapes in the test part, so nothing can be retrieved; let fewer "
             "train, or use larger classes"

@@ -36,6 +36,8 @@ def describe(
     ------
     UnknownPluginError
         No descriptor has that name.
+    InvalidParameterError
+        It has no such parameter, or the value is outside its bounds.
     UnsupportedMesh
         The operators of the mesh are undefined.
     """

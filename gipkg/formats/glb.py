@@ -20,7 +20,7 @@ _HEADER = struct.Struct("<4s8xI4s")
 _CHUNK = struct.Struct("<I4s")
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _WIDTHS = {"SCALAR": 1, "VEC3": 3}
-_TRIANGLES, _STRIP = 4, 5
+_TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 Scene = dict[str, Any]
 
@@ -49,8 +49,13 @@ def parse_glb(data: bytes) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         vertices, faces = [np.zeros((0, 3))], [np.zeros((0, 3), np.int64)]
         count = shown = 0
         for mesh, matrix in _places(scene):
+            with np.errstate(invalid="ignore", over="ignore"):
+                # The sign alone: a determinant of small scales would vanish.
+                mirrored = np.linalg.slogdet(matrix[:3, :3])[0] < 0
             for primitive in scene["meshes"][mesh]["primitives"]:
                 points, triangles = _triangles(scene, binary, primitive)
+                if mirrored:
+                    triangles = triangles[:, ::-1]
                 with np.errstate(invalid="ignore", over="ignore"):  # array_fault finds them
                     vertices.append(points @ matrix[:3, :3].T + matrix[:3, 3])
                 faces.append(triangles + count)
@@ -118,19 +123,22 @@ def _triangles(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Read one part; lines and points have no triangles."""
     mode = primitive.get("mode", _TRIANGLES)
-    if mode not in (_TRIANGLES, _STRIP):
+    if mode not in (_TRIANGLES, _STRIP, _FAN):
         return np.zeros((0, 3)), np.zeros((0, 3), np.int64)
     with np.errstate(invalid="ignore"):  # array_fault finds what is no number
         points = _array(scene, binary, primitive["attributes"]["POSITION"]).astype(np.float64)
     corners = np.arange(len(points))
     if "indices" in primitive:
         corners = _array(scene, binary, primitive["indices"]).ravel().astype(np.int64)
-        if len(corners) and corners.max() >= len(points):
+        if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
             raise ValueError("a triangle names a vertex that does not exist")
     if mode == _STRIP:
         triangles = np.column_stack((corners[:-2], corners[1:-1], corners[2:]))
         triangles[1::2] = triangles[1::2, ::-1]
         return points, triangles
+    if mode == _FAN:
+        first = np.broadcast_to(corners[:1], len(corners[2:]))
+        return points, np.column_stack((first, corners[1:-1], corners[2:]))
     if len(corners) % 3:
         raise ValueError(f"{len(corners)} corners do not make triangles")
     return points, corners.reshape(-1, 3)

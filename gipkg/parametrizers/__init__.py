@@ -47,6 +47,8 @@ def parametrize(
     ------
     UnknownPluginError
         There is no such parametrizer.
+    InvalidParameterError
+        It has no such parameter, or the value is outside its bounds.
     UnsupportedMesh
         The mesh is outside the method's domain, or none at all.
     ParametrizationError

@@ -42,7 +42,7 @@ class OptimalTransport(Parametrizer):
         self, mesh: trimesh.Trimesh, callback: Callback | None = None
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
-        from gipkg.parametrizers import parametrize
+        from gipkg.parametrizers.conformal import Conformal
         from gipkg.parametrizers.transport.transport import transport
         from gipkg.surfaces.validation import check_genus_zero, face_areas
 
@@ -51,7 +51,7 @@ class OptimalTransport(Parametrizer):
         areas = face_areas(np.asarray(mesh.vertices, np.float64), faces)
         shares = np.bincount(faces.ravel(), np.repeat(areas / 3, 3))
         return transport(
-            parametrize(mesh, "conformal").sphere,
+            Conformal.model_validate({}).parametrize(mesh),
             shares * (4 * np.pi / shares.sum()),
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import halfedges
-from gipkg.surfaces.caps import cap
+from gipkg.surfaces.caps import Cap, cap
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.validation import face_areas
 
@@ -48,17 +48,15 @@ def fill_holes(mesh: Triangles, largest: float) -> tuple[Triangles, int]:
         A hole is larger than that.
     """
     loops = border_loops(mesh.faces)
-    area = float(face_areas(mesh.vertices, mesh.faces).sum())
+    caps = [cap(mesh.vertices[loop]) for loop in loops]
+    areas = [_cap_area(mesh.vertices[loop], disc) for loop, disc in zip(loops, caps, strict=True)]
+    total = float(face_areas(mesh.vertices, mesh.faces).sum()) + sum(areas)
     vertices, faces = [mesh.vertices[:0]], [mesh.faces[:0]]
     size = len(mesh.vertices)
-    for loop in loops:
-        disc = cap(mesh.vertices[loop])
-        points = np.concatenate((mesh.vertices[loop], disc.vertices))
-        added = float(face_areas(points, disc.faces).sum())
-        area += added
-        if added > largest * area:
+    for loop, disc, added in zip(loops, caps, areas, strict=True):
+        if added > largest * total:
             raise UnsupportedMesh(
-                f"a hole of {len(loop)} edges would be closed by a cap of {added / area:.0%} of "
+                f"a hole of {len(loop)} edges would be closed by a cap of {added / total:.0%} of "
                 f"the whole surface, more than {largest:.0%}: this is rather an open sheet than "
                 "the surface of a solid. largest_hole=1 closes it all the same"
             )
@@ -69,6 +67,10 @@ def fill_holes(mesh: Triangles, largest: float) -> tuple[Triangles, int]:
     if not loops:
         return mesh, 0
     return mesh.append(np.concatenate(vertices), np.concatenate(faces)), len(loops)
+
+
+def _cap_area(loop: NDArray[np.float64], disc: Cap) -> float:
+    return float(face_areas(np.concatenate((loop, disc.vertices)), disc.faces).sum())
 
 
 def close_loop(mesh: Triangles, loop: NDArray[np.int64], shift: NDArray[np.float64]) -> Triangles:

@@ -23,7 +23,7 @@ from gipkg.surfaces.report import Report, Step, count
 from gipkg.surfaces.soups import soup_surface
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import check_genus_zero, face_areas
+from gipkg.surfaces.validation import face_areas, genus_zero_faults
 from gipkg.surfaces.volumes import volume_surface
 
 Share = Annotated[float, Field(ge=0, le=1)]
@@ -186,7 +186,10 @@ def _repaired(given: Triangles, result: Triangles, steps: tuple[Step, ...], name
     before = count(given.vertices, given.faces)
     if not steps:
         return Surface(mesh, result.original, Report(before, before))
-    check_genus_zero(mesh)
+    if faults := list(genus_zero_faults(result.vertices, result.faces)):
+        raise UnsupportedMesh(
+            f"the repair left faults: {'; '.join(faults)}. method='volume' remakes the mesh"
+        )
     after = count(result.vertices, result.faces)
     report = Report(before, after, steps, "repair", deviation=deviation(given, result))
     return Surface(mesh, result.original, report)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gipkg.surfaces import halfedges
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import DEGENERATE, face_areas
+from gipkg.surfaces.validation import DEGENERATE, face_areas, repeats_vertex
 
 SLIVER = 1e-7
 """A face below this share of the mean area is resolved; well above what validation refuses."""
@@ -80,8 +80,7 @@ class _Round:
 
     def result(self) -> Triangles:
         """Return the edited mesh."""
-        keep = (self.faces != np.roll(self.faces, 1, axis=1)).all(axis=1)
-        return self.mesh.with_faces(self.faces[keep]).compact()
+        return self.mesh.with_faces(self.faces[~repeats_vertex(self.faces)]).compact()
 
     def _star(self, vertex: int) -> tuple[NDArray[np.int64], set[int]]:
         """Return the faces at a vertex and the vertices beside it."""

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from gipkg.api import DatasetTags
-from gipkg.datasets import official_split, zip_archives
+from gipkg.datasets import modelnet, official_split, zip_archives
 from gipkg.datasets.modelnet import ModelNet10, ModelNetMeshes
 from gipkg.errors import DatasetNotFound, MeshFormatError
 from tests.datasets.tar_files import checksum
@@ -129,6 +129,16 @@ def test_a_truncated_archive_is_named(zipped, monkeypatch):
     declare(path, monkeypatch)
     with pytest.raises(MeshFormatError, match=r"ModelNet10\.zip: not a readable zip"):
         Small().shapes(zipped)
+
+
+def test_a_truncated_archive_is_fetched_again(zipped, monkeypatch):
+    path = zipped / Small.archive
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-100])
+    assert not Small().available(zipped)
+    monkeypatch.setattr(modelnet, "fetch_archive", lambda path, *_: path.write_bytes(whole))
+    Small().fetch(zipped)
+    assert Small().available(zipped)
 
 
 def test_some_models_are_not_the_database(tmp_path, data_root):

@@ -90,6 +90,12 @@ def test_something_must_be_left_to_retrieve(train_per_class):
         split(shapes, Protocol(train_per_class), seed=0)
 
 
+@pytest.mark.parametrize("train_per_class", [3, 0.8, "official"])
+def test_a_database_without_shapes_cannot_be_split(train_per_class):
+    with pytest.raises(SplitError):
+        split([], Protocol(train_per_class), seed=0)
+
+
 @given(databases(), st.randoms(use_true_random=False))
 def test_what_takes_part_depends_on_no_order_and_on_no_other_class(database, random):
     shapes, count = database

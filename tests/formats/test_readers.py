@@ -114,10 +114,33 @@ def test_rotation_translation_and_scale_make_a_matrix(tmp_path: Path) -> None:
     np.testing.assert_allclose(load_mesh(path).vertices, expected, atol=1e-12)
 
 
-def test_strips_keep_their_side(tmp_path: Path) -> None:
-    square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "<f4")
+@pytest.mark.parametrize("size", [(-1, 1, 1), (1, -2, 1), (-1, -1, -1), (1e-90, 1e-90, -1e-150)])
+def test_a_mirrored_part_faces_the_same_side(tmp_path: Path, size: tuple[float, ...]) -> None:
+    inner = {"mesh": 0, "scale": size}
+    nodes = [{"children": [1]}, inner, {"children": [3], "scale": [1, 1, -1]}, inner]
+    mesh = load_mesh(scene(tmp_path, nodes=nodes, scenes=[{"nodes": [0, 2]}]))
+    np.testing.assert_array_equal(mesh.faces, [[2, 1, 0], [3, 4, 5]])
+
+
+@pytest.mark.parametrize("index", [-1, 3])
+def test_an_index_outside_the_vertices_is_refused(tmp_path: Path, index: int) -> None:
+    points = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}
+    path = scene(
+        tmp_path,
+        TRIANGLE.tobytes() + np.array([0, 1, index], "<i2").tobytes(),
+        bufferViews=[{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36}],
+        accessors=[points, {"bufferView": 1, "componentType": 5122, "count": 3, "type": "SCALAR"}],
+        meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+    )
+    with pytest.raises(MeshFormatError, match="names a vertex that does not exist"):
+        load_mesh(path)
+
+
+@pytest.mark.parametrize(("mode", "order"), [(5, [0, 1, 2, 3]), (6, [0, 1, 3, 2])])
+def test_strips_and_fans_keep_their_side(tmp_path: Path, mode: int, order: list[int]) -> None:
+    square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "<f4")[order]
     accessor = {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}
-    strip = {"attributes": {"POSITION": 0}, "mode": 5}
+    strip = {"attributes": {"POSITION": 0}, "mode": mode}
     path = scene(
         tmp_path,
         square.tobytes(),

@@ -100,6 +100,20 @@ def test_hole_larger_than_allowed_is_refused():
         holes.fill_holes(opened, 0.2)
 
 
+def test_caps_are_measured_against_the_closed_surface():
+    n, radius = 48, 1.4  # of a tube of height 1: each cap is 29 % of the closed surface
+    ring = radius * circle(n)
+    i = np.arange(n)
+    j = (i + 1) % n
+    faces = np.concatenate((np.column_stack((i, j, n + j)), np.column_stack((i, n + j, n + i))))
+    tube = triangles(bare(np.concatenate((ring, ring + np.array([0, 0, 1]))), faces))
+    closed, number = holes.fill_holes(tube, 0.4)
+    assert number == 2
+    assert_genus_zero(bare(closed.vertices, closed.faces))
+    with pytest.raises(UnsupportedMesh, match="a cap of 29% of the whole"):
+        holes.fill_holes(tube, 0.25)
+
+
 def separates(mesh, loop) -> bool:
     """Whether the faces fall apart along a loop, by NetworkX."""
     cut = {frozenset(pair) for pair in zip(loop.tolist(), np.roll(loop, 1).tolist(), strict=True)}

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from gipkg.errors import MeshFormatError, UnsupportedMesh
-from gipkg.surfaces import Surface, prepare
+from gipkg.surfaces import Surface, preparation, prepare
+from gipkg.surfaces.report import Step
 from tests.surfaces.solids import (
     assert_genus_zero,
     bare,
@@ -21,6 +22,7 @@ from tests.surfaces.solids import (
     torus,
     without_cap,
 )
+from tests.surfaces.test_steps import triangles
 
 
 def step_names(surface: Surface) -> list[str]:
@@ -202,6 +204,15 @@ def test_what_cannot_be_repaired_says_why(mesh, fault):
 def test_no_area_at_all(mesh):
     with pytest.raises(UnsupportedMesh, match="no area"):
         prepare(mesh)
+
+
+def test_faults_that_repair_leaves_are_named_with_a_way_out(monkeypatch):
+    opened = triangles(without_cap(sphere(), 0.5))
+    monkeypatch.setattr(preparation, "repair", lambda *_, **__: (opened, (Step("nothing", {}),)))
+    fault = r"faults: \d+ vertices belong to no face; it is open.*\. method='volume' remakes"
+    with pytest.raises(UnsupportedMesh, match=fault):
+        prepare(torus(), method="repair")
+    assert "the repair left faults" in prepare(torus(), resolution=20).report.reason
 
 
 def test_largest_hole_may_be_allowed():

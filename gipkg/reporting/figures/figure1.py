@@ -11,7 +11,8 @@ import trimesh
 from numpy.typing import NDArray
 
 from gipkg.api import SphericalMap
-from gipkg.descriptors import describe
+from gipkg.descriptors.curvature import Curvature
+from gipkg.descriptors.operators import Operators
 from gipkg.evaluation.surface_distance import surface_distance
 from gipkg.images.lookup import lookup
 from gipkg.images.reconstruct import reconstruct
@@ -139,7 +140,7 @@ def image(
     camera = principal_camera(np.asarray(mesh.vertices))
     spherical_map = SphericalMap(mesh, sphere)
     located = lookup(spherical_map, size, facing(spherical_map, camera))
-    curvatures = describe(mesh, "curvature")
+    curvatures = Curvature.model_validate({}).describe(mesh, Operators(mesh))
     channels = np.column_stack([mesh.vertices, curvatures, mask])
     images = located.render(channels, np.float64)[0]
     return Imaged(mesh, mask, camera, images[:3], images[3:5], images[5], reconstruct(images[:3]))

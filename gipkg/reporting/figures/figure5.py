@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import Parametrizer, SphericalMap
-from gipkg.descriptors import describe
+from gipkg.descriptors.hks import HeatKernelSignature
+from gipkg.descriptors.operators import Operators
 from gipkg.images.lookup import geometry_image
 from gipkg.images.padding import pad
 from gipkg.images.reconstruct import reconstruct
@@ -165,7 +166,8 @@ def _pose(
         weights = vertex_areas(mesh)
         turn = Rotation.align_vectors(like.sphere, spherical_map.sphere, weights)[0]
     sphere = turn.apply(spherical_map.sphere)
-    hks = describe(mesh, "hks", times=_TIMES)[:, _TIMES // 2]
+    signature = HeatKernelSignature(times=_TIMES).describe(mesh, Operators(mesh))
+    hks = signature[:, _TIMES // 2]
     channels = np.column_stack([mesh.vertices, hks])
     return Pose(mesh, sphere, hks, geometry_image(SphericalMap(mesh, sphere), channels, size))
 

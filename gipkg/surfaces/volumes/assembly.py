@@ -14,7 +14,7 @@ from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces.report import Report, Step, VolumeCounts, count
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import check_genus_zero
+from gipkg.surfaces.validation import genus_zero_faults
 from gipkg.surfaces.volumes.decimation import decimate
 from gipkg.surfaces.volumes.fairing import fair
 from gipkg.surfaces.volumes.lattice import Solid
@@ -98,7 +98,11 @@ def volume_surface(
     if mesh.volume < 0:
         # A rugged solid reduced to a handful of vertices can be turned inside out by it.
         mesh = trimesh.Trimesh(points, result.faces[:, ::-1], process=False)
-    check_genus_zero(mesh)
+    if faults := list(genus_zero_faults(points, np.asarray(mesh.faces))):
+        raise UnsupportedMesh(
+            f"the surface made of the volume has faults: {'; '.join(faults)}. Another resolution "
+            "or more vertices may give one without"
+        )
     report = Report(before, count(points, mesh.faces), tuple(steps), "volume")
     return Surface(mesh, result.original, report)
 

@@ -14,6 +14,7 @@ from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import Surface, prepare, volume_surface
 from gipkg.surfaces.triangles import Triangles
+from gipkg.surfaces.volumes import assembly
 from gipkg.surfaces.volumes.decimation import decimate
 from gipkg.surfaces.volumes.fairing import fair
 from gipkg.surfaces.volumes.tetrahedra import lattice_surface
@@ -261,3 +262,12 @@ def test_what_is_not_original_is_masked_like_a_membrane():
     height = surface.mesh.vertices[:, 2] - CENTRE
     assert surface.mask[height > 1].all()
     assert not surface.mask[height < -1].any()
+
+
+def test_a_surface_with_faults_is_refused_with_a_way_out(monkeypatch):
+    def opened(mesh, count):
+        return mesh.with_faces(mesh.faces[1:])
+
+    monkeypatch.setattr(assembly, "decimate", opened)
+    with pytest.raises(UnsupportedMesh, match=r"it is open: 3 edges.* or more vertices may"):
+        volume_surface(Volume(ball(5, size=12)))
