@@ -35,6 +35,9 @@ def main() -> None:
                 mesh = trimesh.Trimesh(surface["vertices"], surface["faces"], process=False)
                 spherical_map = gipkg.SphericalMap(mesh, maps[shape_id]["sphere"])
                 measured.append(gipkg.distortion(spherical_map))
+        if not measured:
+            print(f"{folder.parent.name:12} {folder.name:14} {0:5} {failed:6}")
+            continue
         faces = [one.face_std for one in measured]
         vertices = [one.vertex_std for one in measured]
         print(f"{folder.parent.name:12} {folder.name:14} {len(measured):5} {failed:6} "

@@ -7,6 +7,7 @@ import trimesh
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
+from gipkg.errors import UnsupportedMesh
 from gipkg.reporting.tips import limb_tips, vertex_areas
 
 _REST = 0.2
@@ -40,14 +41,14 @@ def bend(mesh: trimesh.Trimesh, towards: ArrayLike, angle: float) -> trimesh.Tri
 
     Raises
     ------
-    ValueError
+    UnsupportedMesh
         The shape has no limbs.
     """
     import igl
 
     tips = limb_tips(mesh)
     if not len(tips.vertex):
-        raise ValueError("the shape has no limbs to bend: name one with limbs")
+        raise UnsupportedMesh("the shape has no limbs to bend: name one with limbs")
     vertices = np.array(mesh.vertices, dtype=np.float64)
     middle = vertex_areas(mesh) @ vertices
     targets = vertices.copy()

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from statistics import median_low
 from typing import Any
 
+from gipkg.errors import TooManyFailures
+
 
 @dataclass(frozen=True, slots=True)
 class Survey:
@@ -35,12 +37,17 @@ def survey(reports: Mapping[str, Mapping[str, Any]], failures: Mapping[str, str]
 
     Raises
     ------
-    ValueError
-        There is no report.
+    TooManyFailures
+        There is no report; the message lists the failures.
     """
     vertices = [report["after"]["vertices"] for report in reports.values()]
     if not vertices:
-        raise ValueError("no surface was prepared: there is nothing to survey")
+        listing = "".join(f"\n  {shape}: {reason}" for shape, reason in sorted(failures.items()))
+        raise TooManyFailures(
+            f"no surface was prepared, all {len(failures)} shapes of the database failed; mend "
+            "what is said below, or choose another `surface: method` for the database in the "
+            f"configuration:{listing}"
+        )
     steps = {
         shape_id: [step["name"] for step in report["steps"]] for shape_id, report in reports.items()
     }

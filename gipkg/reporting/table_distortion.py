@@ -10,6 +10,7 @@ import numpy as np
 
 from gipkg.files import read_csv
 from gipkg.reporting.notes import literal
+from gipkg.reporting.score_table import markdown_line
 from gipkg.reporting.shapes import MappedShape
 
 _RATIOS = ("face_std", "weighted_face_std", "vertex_std")
@@ -148,9 +149,10 @@ def as_markdown(
     for database in dict.fromkeys(row.database for row in rows):
         lines += ["", f"## {literal(database)}", "", *_section(database, rows, in_paper, reference)]
     lines += ["", "## Notes", "", *(f"- {note}" for note in notes)]
-    lines += ["", "## The paper's figures", "", _line(["database", "method", "variance of δh·A"])]
-    lines += [_line(["---"] * 3)]
-    lines += [_line([*key, variance]) for key, variance in reference.items()]
+    lines += ["", "## The paper's figures", ""]
+    lines += [markdown_line(["database", "method", "variance of δh·A"])]
+    lines += [markdown_line(["---"] * 3)]
+    lines += [markdown_line([*key, variance]) for key, variance in reference.items()]
     return "\n".join(lines) + "\n"
 
 
@@ -164,12 +166,12 @@ def _section(
     header = ["method", "shapes", "failed", "vertices", "var δh·A", "a shape", "*in the paper*"]
     header += ["std r: faces", "weighted", "vertices", "flipped shapes", "flips"]
     header += ["degree not 1", "seconds"]
-    lines = [_line(header), _line(["---"] * len(header))]
+    lines = [markdown_line(header), markdown_line(["---"] * len(header))]
     for row in chosen:
         variance = row.spreads["variance"]
         printed = reference.get((database, in_paper[row.parametrizer] or ""))
         lines.append(
-            _line(
+            markdown_line(
                 [
                     literal(row.parametrizer),
                     str(row.shapes),
@@ -195,7 +197,3 @@ def _pair(spread: Spread) -> str:
 
 def _number(value: float, digits: int, absent: str = _ABSENT) -> str:
     return absent if np.isnan(value) else f"{value:.{digits}g}"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"

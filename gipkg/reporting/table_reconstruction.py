@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from gipkg.reporting.notes import literal
+from gipkg.reporting.score_table import markdown_line
 
 _ABSENT = "–"
 
@@ -91,8 +92,8 @@ def as_markdown(
         "distance in brackets, median of the shapes. Measured both ways, from the vertices and "
         "50,000 random points of each surface to the faces of the other.",
         "",
-        _line(["database", "shapes", "image", *map(literal, parametrizers)]),
-        _line(["---"] * (3 + len(parametrizers))),
+        markdown_line(["database", "shapes", "image", *map(literal, parametrizers)]),
+        markdown_line(["---"] * (3 + len(parametrizers))),
     ]
     for database, size in dict.fromkeys((one.database, one.size) for one in entries):
         group = [one for one in entries if (one.database, one.size) == (database, size)]
@@ -100,7 +101,7 @@ def as_markdown(
         cells = [
             _cell([one for one in group if one.parametrizer == name]) for name in parametrizers
         ]
-        lines.append(_line([literal(database), str(shapes), f"{size} × {size}", *cells]))
+        lines.append(markdown_line([literal(database), str(shapes), f"{size} × {size}", *cells]))
     lines += ["", "## Notes", "", *(f"- {note}" for note in notes)]
     return "\n".join(lines) + "\n"
 
@@ -111,7 +112,3 @@ def _cell(entries: Sequence[Entry]) -> str:
     if not largest:
         return _ABSENT
     return f"{median(largest):.2f} / {max(largest):.2f} ({median(mean):.3f})"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"

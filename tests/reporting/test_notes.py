@@ -1,29 +1,10 @@
 from __future__ import annotations
 
-import pytest
-
 from gipkg import registry
 from gipkg.api import Protocol, Shape
 from gipkg.reporting import notes
 from gipkg.reporting.score_table import Cell, Row
-from gipkg.reporting.survey import Survey, survey
-
-
-def report(vertices: int, *steps: str) -> dict[str, object]:
-    return {"after": {"vertices": vertices}, "steps": [{"name": name} for name in steps]}
-
-
-def test_a_survey_counts_surfaces_vertices_repairs_and_failures() -> None:
-    reports = {"a": report(10), "b": report(30, "cut handles", "fill holes"), "c": report(20)}
-    found = survey(reports, {"d": "UnsupportedMesh: open"})
-    assert found == Survey(
-        surfaces=3,
-        vertices=(10, 20, 30),
-        repaired={"b": ["cut handles", "fill holes"]},
-        failures={"d": "UnsupportedMesh: open"},
-    )
-    with pytest.raises(ValueError, match="no surface"):
-        survey({}, {"d": "UnsupportedMesh: open"})
+from gipkg.reporting.survey import Survey
 
 
 def test_a_generated_database_is_never_taken_for_a_real_one() -> None:

@@ -65,7 +65,7 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
         ),
         (
             {"figures": {"shapes": [{"database": "shrec11", "shape": "T280"}]}},
-            ["figures.shapes", "none of the databases is at hand"],
+            ["figures.shapes", "none of the databases is at hand (shrec11)", "data_root"],
         ),
         (
             {"figures": {"figure2": {"parametrizers": ["authalik"]}}},
@@ -73,7 +73,7 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
         ),
         (
             {"beyond": {"databases": [{"database": "shrec11"}]}},
-            ["beyond.databases", "none of the databases is at hand"],
+            ["beyond.databases", "none of the databases is at hand (shrec11)", "data_root"],
         ),
         (
             {"beyond": {"databases": [{"database": "tiny", "protocol": "Tini1"}]}},

@@ -13,8 +13,10 @@ def test_the_report_holds_what_the_run_made(smoke: Workdir, tmp_path: Path) -> N
     done = workdir.run("--report", report)
     assert done.returncode == 0, done.stdout
     text = report.read_text(encoding="utf-8")
-    names = ["index.html", "table1.csv", "table_distortion.csv", "table_reconstruction.csv"]
-    for name in (*names, *(f"figure{number}.png" for number in range(1, 9))):
+    tables = ("table1", "table1_beyond", "table_distortion", "table_reconstruction")
+    figures = (*(f"figure{number}" for number in range(1, 9)), "figure_beyond")
+    names = (*(f"{one}.csv" for one in tables), *(f"{one}.png" for one in figures))
+    for name in ("index.html", *names):
         assert re.search(rf"results/{re.escape(name)}\b", text), name
     # Captions know what the run was of.
     assert "those of chair-000, which stands upright" in " ".join(text.replace("\\n", " ").split())

@@ -21,7 +21,8 @@ rule perturb:
     params:
         perturbation=lookup("{source}~{perturbation}", within=BEYOND["perturbed"]),
         seed=config["beyond"]["robustness"]["seed"],
-        code=fingerprint_module("gipkg.surfaces"),
+        options=lambda wildcards: surface_options(SimpleNamespace(database=wildcards.source)),
+        code=fingerprint_module("gipkg.surfaces.perturbations"),
     script:
         "../scripts/perturb.py"
 
@@ -70,10 +71,15 @@ rule table_beyond:
         survey=f"results/surfaces/{BEYOND['database']}.json",
         listing=f"results/datasets/{BEYOND['database']}/shapes.csv",
     output:
-        csv="results/table1_beyond.csv",
+        csv=report("results/table1_beyond.csv", "../report/table_beyond.rst", category="Tables"),
         markdown="results/table1_beyond.md",
         provenance="results/table1_beyond.json",
-        figure="results/figure_beyond.png",
+        figure=report(
+            "results/figure_beyond.png",
+            "../report/figure_beyond.rst",
+            category="Figures",
+            labels={"figure": "beyond"},
+        ),
         figure_csv="results/figure_beyond.csv",
         figure_provenance="results/figure_beyond.json",
     log:
@@ -93,7 +99,12 @@ rule table_beyond:
         networks=networks_of(BEYOND),
         code=[
             fingerprint_module(name)
-            for name in ("gipkg.reporting.table_beyond", "gipkg.reporting.figures.beyond")
+            for name in (
+                "gipkg.reporting.table_beyond",
+                "gipkg.reporting.figures.beyond",
+                "gipkg.reporting.notes",
+                "gipkg.reporting.records",
+            )
         ],
     script:
         "../scripts/table_beyond.py"

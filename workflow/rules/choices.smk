@@ -74,7 +74,11 @@ def first_at_hand(key, choices):
         require_defined(f"{key}.{number}.database", choice["database"], "datasets")
         if is_at_hand(choice["database"]):
             return choice
-    raise WorkflowError(f"configuration, {key}: none of the databases is at hand")
+    named = ", ".join(dict.fromkeys(choice["database"] for choice in choices))
+    raise WorkflowError(
+        f"configuration, {key}: none of the databases is at hand ({named}); put one under "
+        "data_root, or add a generated one"
+    )
 
 
 def chosen_subjects():

@@ -83,7 +83,11 @@ rule reconstruct:
         sampling=IMAGES["standard"]["sampling"],
         code=[
             fingerprint_module(name)
-            for name in ("gipkg.evaluation.surface_distance", "gipkg.images")
+            for name in (
+                "gipkg.evaluation.surface_distance",
+                "gipkg.images",
+                "gipkg.datasets.selection",
+            )
         ],
     script:
         "../scripts/reconstruct.py"

@@ -206,7 +206,14 @@ rule figure7:
             "dataset": picked(DATASETS, MAPPED),
             "parametrizer": picked(PARAMETRIZERS, METHODS),
         },
-        code=fingerprint_module("gipkg.reporting.figures.figure7"),
+        code=[
+            fingerprint_module(name)
+            for name in (
+                "gipkg.reporting.figures.figure7",
+                "gipkg.reporting.table_distortion",
+                "gipkg.datasets.selection",
+            )
+        ],
     script:
         "../scripts/figure7.py"
 
@@ -235,6 +242,13 @@ rule precision_recall:
         config=lambda wildcards: config[CURVES[wildcards.figure]],
         rows=drawn(table_rows),
         plugins=drawn(table_plugins),
-        code=fingerprint_module("gipkg.reporting.figures.precision_recall"),
+        code=[
+            fingerprint_module(name)
+            for name in (
+                "gipkg.reporting.figures.precision_recall",
+                "gipkg.reporting.score_table",
+                "gipkg.reporting.records",
+            )
+        ],
     script:
         "../scripts/precision_recall.py"

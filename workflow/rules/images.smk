@@ -15,6 +15,7 @@ rule images:
         mem_mb=memory(1000),
     params:
         images=lookup("{images}", within=IMAGES),
-        code=fingerprint_module("gipkg.images"),
+        # Not the package: what only gives a mesh back, or pads, changes no image.
+        code=[fingerprint_module(name) for name in ("gipkg.images.config", "gipkg.images.lookup")],
     script:
         "../scripts/images.py"

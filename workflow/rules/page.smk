@@ -1,3 +1,10 @@
+import gipkg
+from gipkg.shards import content_key
+
+# Of the package and not of the checkout: the workflow may be somewhere without it.
+ASSETS = Path(gipkg.__file__).parent / "reporting" / "page" / "assets"
+
+
 rule scenes:
     input:
         [surface_shard(subject) for subject in ON_PAGE],
@@ -40,5 +47,7 @@ rule page:
         mem_mb=memory(1000),
     params:
         code=fingerprint_module("gipkg.reporting.page.html"),
+        # Fingerprints follow Python alone; the page is its template, styles and scripts, too.
+        assets=content_key(None, sorted(filter(Path.is_file, ASSETS.iterdir()))),
     script:
         "../scripts/page.py"

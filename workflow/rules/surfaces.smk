@@ -17,7 +17,10 @@ rule surfaces:
     params:
         dataset=lookup("{database}", within=DATASETS),
         options=surface_options,
-        code=fingerprint_module("gipkg.surfaces"),
+        code=[
+            fingerprint_module(name)
+            for name in ("gipkg.surfaces.preparation", "gipkg.surfaces.upright")
+        ],
     script:
         "../scripts/surfaces.py"
 
@@ -33,5 +36,7 @@ rule survey:
         "../../environment.yml"
     resources:
         mem_mb=memory(1000),
+    params:
+        code=fingerprint_module("gipkg.reporting.survey"),
     script:
         "../scripts/survey.py"

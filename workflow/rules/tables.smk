@@ -27,7 +27,12 @@ rule score_table:
         networks=table_networks,
         code=[
             fingerprint_module(name)
-            for name in ("gipkg.reporting.score_table", "gipkg.reporting.notes")
+            for name in (
+                "gipkg.reporting.score_table",
+                "gipkg.reporting.notes",
+                "gipkg.reporting.trainings",
+                "gipkg.reporting.records",
+            )
         ],
     script:
         "../scripts/score_table.py"

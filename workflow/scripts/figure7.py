@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import numpy as np
-from gipkg.api import Shape
 from gipkg.datasets.selection import spread_over_classes
 from gipkg.files import read_csv, write_csv, write_json
 from gipkg.progress import progress
@@ -14,6 +13,7 @@ from gipkg.reporting.shapes import read_shapes
 from gipkg.reporting.table_distortion import summarise
 
 import job
+from listings import read_listing
 from meshes import Maps
 
 job.start(snakemake)
@@ -24,7 +24,7 @@ maps = {
     for number, method in enumerate(params.methods)
 }
 first = maps[params.methods[0]]
-listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(files.shapes))]
+listing = read_listing(files.shapes)
 surfaces = [shape for shape in listing if shape.id in first.surfaces]
 panels = [
     figure7.reconstruct_panel(

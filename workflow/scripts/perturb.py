@@ -19,7 +19,7 @@ tested = {shape_id for path in snakemake.input.splits for shape_id in read_split
 def surface(shape_id: str) -> Arrays:
     """Perturb one surface."""
     mesh, chosen = mesh_of(surfaces[shape_id][shape_id]), params.perturbation
-    how = {"seed": params.seed, "shape_id": shape_id}
+    how = {"seed": params.seed, "shape_id": shape_id, "options": params.options}
     return surface_arrays(perturb(mesh, chosen["name"], chosen["strength"], **how))
 
 

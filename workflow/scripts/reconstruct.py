@@ -2,16 +2,16 @@
 
 from pathlib import Path
 
-from gipkg.api import Shape
 from gipkg.datasets.selection import spread_over_classes
 from gipkg.errors import GipkgError
 from gipkg.evaluation.surface_distance import surface_distance
-from gipkg.files import read_csv, write_csv
+from gipkg.files import write_csv
 from gipkg.images.lookup import geometry_image
 from gipkg.images.reconstruct import reconstruct
 from gipkg.progress import progress
 
 import job
+from listings import read_listing
 from meshes import Maps
 
 job.start(snakemake)
@@ -33,7 +33,7 @@ def figures(shape_id: str, size: int) -> tuple[str, str, str]:
     return f"{distance.hausdorff:.6g}", f"{distance.mean:.6g}", ""
 
 
-listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(snakemake.input.shapes))]
+listing = read_listing(snakemake.input.shapes)
 chosen = spread_over_classes(listing, params.shapes)
 rows = [
     (shape_id, size, *figures(shape_id, size))

@@ -16,7 +16,7 @@ job.start(snakemake)
 plugins = job.plugins(snakemake.params.plugins)
 scenes = []
 for number, shape in progress(list(enumerate(snakemake.params.shapes)), "page/scenes"):
-    surface = read_surface(snakemake, number)
+    surface = read_surface(snakemake, number, section="page.shapes")
     mesh = mesh_of(surface)
     operators = Operators(mesh, snakemake.params.eigenpairs, mask=surface["mask"])
     note = [plugins["dataset", snakemake.params.databases[number]].summary]

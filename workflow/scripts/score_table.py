@@ -1,10 +1,9 @@
 """Set a table from its scores: for programs, for readers, and where it comes from."""
 
 from pathlib import Path
-from typing import Any
 
-from gipkg.api import Protocol, Shape
-from gipkg.files import read_csv, read_json, write_csv, write_json, write_text
+from gipkg.api import Protocol
+from gipkg.files import write_csv, write_json, write_text
 from gipkg.reporting import notes, score_table
 from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
@@ -12,6 +11,7 @@ from gipkg.reporting.survey import Survey
 from gipkg.reporting.trainings import Training
 
 import job
+from listings import read_listing, read_sealed
 
 job.start(snakemake)
 config, seeds = snakemake.params.config, snakemake.params.seeds
@@ -26,19 +26,13 @@ headings = [column["column"] for column in columns]
 databases = list(protocols)
 plugins = job.plugins(snakemake.params.plugins)
 
-
-def read(path: str) -> Any:
-    """Read what an earlier stage found out."""
-    return read_json(Path(path), sealed=True)
-
-
-evaluations = map(read, snakemake.input.evaluations)
+evaluations = map(read_sealed, snakemake.input.evaluations)
 table = [
     score_table.Row(*row, {one: score_table.Cell.of(next(evaluations)) for one in headings})
     for row in rows
 ]
-surveys = dict(zip(databases, map(read, snakemake.input.surveys), strict=True))
-lost = map(read, snakemake.input.failures)
+surveys = dict(zip(databases, map(read_sealed, snakemake.input.surveys), strict=True))
+lost = map(read_sealed, snakemake.input.failures)
 failures = {database: {heading: next(lost) for heading in headings} for database in databases}
 
 text = [
@@ -51,7 +45,7 @@ text = [
     for database in databases
 ]
 for database, path in zip(databases, snakemake.input.listings, strict=True):
-    listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(path))]
+    listing = read_listing(path)
     text += notes.selection_notes(database, protocols[database], listing)
 text += [notes.column_note(column, plugins) for column in columns]
 text += [
@@ -63,7 +57,7 @@ text += [
 text.append(notes.seeds_note(seeds))
 text += [notes.ahead_note(table, own) for own in score_table.own_columns(columns)[:1]]
 
-timings = map(read, snakemake.input.timings)
+timings = map(read_sealed, snakemake.input.timings)
 taken = [
     Training.of(*row, heading, [next(timings) for _ in seeds[row[0]]])
     for row in rows

@@ -1,4 +1,4 @@
-"""The shapes of Figures 1 to 6, and the files that each of them is."""
+"""The shapes of Figures 1 to 6 and of the page, and the files that each of them is."""
 
 from __future__ import annotations
 
@@ -22,13 +22,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def read_surface(snakemake: Any, number: int = 0) -> Arrays:
-    """Return the surface of one of the shapes that the configuration names for a figure."""
+def read_surface(snakemake: Any, number: int = 0, section: str = "figures") -> Arrays:
+    """Return the surface of one of the shapes that a section of the configuration names."""
     surfaces = Shard.open(Path(snakemake.input[number]))
     shape = snakemake.params.shapes[number]
     if shape not in surfaces:
         reason = surfaces.failures.get(shape, "the database has no such shape")
-        raise DatasetNotFound(f"configuration, figures: {shape!r} has no surface: {reason}")
+        raise DatasetNotFound(
+            f"configuration, {section}: {shape!r} has no surface: {reason}; name another"
+        )
     return surfaces[shape]
 
 

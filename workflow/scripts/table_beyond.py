@@ -1,10 +1,9 @@
 """Set and draw what goes beyond the paper: few training shapes, and faulty test shapes."""
 
 from pathlib import Path
-from typing import Any
 
-from gipkg.api import Protocol, Shape
-from gipkg.files import read_csv, read_json, write_csv, write_json, write_text
+from gipkg.api import Protocol
+from gipkg.files import write_csv, write_json, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_beyond as table
 from gipkg.reporting.figures import beyond as figure
@@ -16,6 +15,7 @@ from gipkg.reporting.survey import Survey
 from gipkg.surfaces.perturbations import PERTURBATIONS
 
 import job
+from listings import read_listing, read_sealed
 
 job.start(snakemake)
 params, database = snakemake.params, snakemake.params.database
@@ -23,13 +23,7 @@ columns = params.config["columns"]
 headings = [column["column"] for column in columns]
 plugins = job.plugins(params.plugins)
 
-
-def read(path: str) -> Any:
-    """Read what an earlier stage found out."""
-    return read_json(Path(path), sealed=True)
-
-
-evaluations = map(read, snakemake.input.evaluations)
+evaluations = map(read_sealed, snakemake.input.evaluations)
 rows = []
 for setting, _, _, amount in params.settings:
     few = setting == "few-shot"
@@ -41,8 +35,8 @@ for setting, _, _, amount in params.settings:
 
 protocols = {split: Protocol(**protocol) for split, protocol in params.protocols.items()}
 splits = list(protocols)
-survey = Survey(**read(snakemake.input.survey))
-listing = [Shape(row["id"], row["label"]) for row in read_csv(Path(snakemake.input.listing))]
+survey = Survey(**read_sealed(snakemake.input.survey))
+listing = read_listing(snakemake.input.listing)
 text = [notes.database_note(database, splits, plugins["dataset", database], survey)]
 text += notes.selection_notes(database, protocols, listing)
 text += [notes.column_note(column, plugins) for column in columns]

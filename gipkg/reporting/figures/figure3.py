@@ -11,6 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from gipkg.api import Iteration, Parametrizer, SphericalMap
+from gipkg.errors import InvalidParameterError
 from gipkg.evaluation.distortion import Distortion, distortion
 from gipkg.images.lookup import geometry_image
 from gipkg.images.reconstruct import reconstruct
@@ -89,7 +90,7 @@ def record(name: str, parametrizer: Parametrizer, mesh: trimesh.Trimesh, shown: 
 
     Raises
     ------
-    ValueError
+    InvalidParameterError
         The method never called back.
     """
     steps: list[Step] = []
@@ -102,7 +103,9 @@ def record(name: str, parametrizer: Parametrizer, mesh: trimesh.Trimesh, shown: 
 
     parametrizer.parametrize(mesh, callback=keep)
     if not steps:
-        raise ValueError(f"{name} reports no iterations: name a parametrizer tagged iterative")
+        raise InvalidParameterError(
+            f"{name} reports no iterations: name a parametrizer tagged iterative"
+        )
     return Progress(steps, {index: spheres[index] for index in _spread(len(steps) - 1, shown)})
 
 

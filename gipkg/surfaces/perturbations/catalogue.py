@@ -6,6 +6,7 @@ import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import trimesh
@@ -53,7 +54,13 @@ PERTURBATIONS: Mapping[str, Perturbation] = MappingProxyType(
 
 
 def perturb(
-    mesh: trimesh.Trimesh, name: str, strength: float, *, seed: int, shape_id: str
+    mesh: trimesh.Trimesh,
+    name: str,
+    strength: float,
+    *,
+    seed: int,
+    shape_id: str,
+    options: Mapping[str, Any] = MappingProxyType({}),
 ) -> Surface:
     """Perturb a surface and prepare it again, as if it had come from a scanner like that.
 
@@ -70,11 +77,14 @@ def perturb(
     seed : int
     shape_id : str
         The random choices are those of this shape, whatever other shapes there are.
+    options : mapping
+        Of :func:`gipkg.surfaces.prepare`, as the surfaces of the database were prepared;
+        `smallest_part` has no say, for what a fault cuts off is part of the fault.
 
     Returns
     -------
     Surface
-        Closed, of genus 0 and of one component: the largest that is left.
+        Closed, of genus 0 and of one component: the largest that is left, by default.
 
     Raises
     ------
@@ -82,4 +92,5 @@ def perturb(
         The perturbed surface cannot be repaired.
     """
     rng = np.random.default_rng([seed, zlib.crc32(shape_id.encode())])
-    return prepare(PERTURBATIONS[name].apply(mesh, strength, rng), smallest_part=0.0)
+    faulty = PERTURBATIONS[name].apply(mesh, strength, rng)
+    return prepare(faulty, **{**options, "smallest_part": 0.0})

@@ -13,6 +13,7 @@ import trimesh
 from PIL import Image
 
 from gipkg.api import Callback, Iteration, Parametrizer, ParametrizerTags, SphericalMap
+from gipkg.errors import InvalidParameterError
 from gipkg.evaluation.distortion import distortion
 from gipkg.reporting.figures import figure3
 from gipkg.reporting.figures.layout import write_png
@@ -82,7 +83,7 @@ def test_a_method_that_reports_nothing_is_refused(body: trimesh.Trimesh) -> None
         ) -> np.ndarray:
             return super().parametrize(mesh)
 
-    with pytest.raises(ValueError, match=r"quiet.*iterative"):
+    with pytest.raises(InvalidParameterError, match=r"quiet.*iterative"):
         figure3.record("quiet", Silent(), body, shown=3)
 
 

@@ -10,6 +10,7 @@ import trimesh
 from PIL import Image
 
 from gipkg import registry
+from gipkg.errors import UnsupportedMesh
 from gipkg.reporting.articulation import bend, stretching
 from gipkg.reporting.figures import figure5
 from gipkg.reporting.figures.layout import write_png
@@ -50,5 +51,5 @@ def test_a_bend_keeps_the_middle_and_moves_the_ends(hand: trimesh.Trimesh) -> No
 
 
 def test_a_ball_has_nothing_to_bend() -> None:
-    with pytest.raises(ValueError, match="no limbs"):
+    with pytest.raises(UnsupportedMesh, match="no limbs"):
         bend(trimesh.creation.icosphere(subdivisions=2), [0, 0, 1], 0.5)

@@ -8,6 +8,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces.perturbations import PERTURBATIONS, perturb
 from gipkg.surfaces.report import count
 from tests.support.shapes import icosphere, urchin
@@ -51,6 +52,21 @@ def test_the_prepared_surface_is_closed_and_of_genus_0(name: str, strength: floa
     assert np.array_equal(surface.mesh.faces, again.mesh.faces)
     other = perturb(URCHIN, name, strength, seed=0, shape_id="another")
     assert not np.array_equal(surface.mesh.vertices, other.mesh.vertices)
+
+
+def test_a_perturbed_surface_is_prepared_as_its_database_is() -> None:
+    options = {"method": "volume", "resolution": 30, "vertices": 200, "smallest_part": 1.0}
+    surface = perturb(URCHIN, "missing", 0.1, seed=0, shape_id="urchin", options=options)
+    assert surface.report.method == "volume"
+    assert len(surface.mesh.vertices) <= 200
+    assert_genus_zero(surface.mesh)
+    with pytest.raises(UnsupportedMesh, match="handle"):
+        perturb(
+            *(URCHIN, "shortcut", 3),
+            seed=0,
+            shape_id="urchin",
+            options={"method": "repair", "most_handles": 0},
+        )
 
 
 @settings(max_examples=10)
