@@ -130,6 +130,23 @@ def test_check_of_a_wrong_plugin_in_one_file(tmp_path: Path) -> None:
     assert "does not conform: failed: returns-an-array-of-channels" in result.stderr
 
 
+def test_check_blames_a_plugin_for_its_own_defaults(tmp_path: Path) -> None:
+    path = tmp_path / "unfounded.py"
+    path.write_text(
+        WRONG
+        + """
+    @pydantic.model_validator(mode="after")
+    def _refuse(self):
+        raise ValueError("no default is right")
+"""
+    )
+    path.write_text("import pydantic\n" + path.read_text())
+    result = run("plugins", "check", f"{path}:Wrong", "--kind", "descriptor")
+    assert result.exit_code == 1
+    assert "no default is right" in result.stderr
+    assert "--expect-failure" not in result.stderr
+
+
 def test_check_with_an_expected_failure(tmp_path: Path) -> None:
     path = tmp_path / "wrong_one.py"
     path.write_text(WRONG)

@@ -10,7 +10,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from gipkg.cli import index as index_command
+from gipkg.errors import UnsupportedMesh
 from gipkg.search.index import Index
+from gipkg.search.network import SignatureNetwork
 from tests.cli.commands import records, run, run_well
 from tests.search.trained import SHAPES, mesh, write_meshes, write_network
 
@@ -102,8 +105,6 @@ def test_a_bad_file_is_named_every_time_and_the_others_are_indexed(
 def test_what_was_done_is_kept_when_the_work_is_stopped(
     folder: Path, network_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gipkg.search.network import SignatureNetwork
-
     whole = SignatureNetwork.signature
     seen: list[Path] = []
 
@@ -120,6 +121,21 @@ def test_what_was_done_is_kept_when_the_work_is_stopped(
     rest = records(run_well(*arguments, "--json"))
     assert [record["known"] for record in rest] == [True, True, False, False]
     assert (folder / "fresh.npz").read_bytes() == (folder / "gipkg-index.npz").read_bytes()
+
+
+def test_an_index_is_written_on_the_way_though_shapes_fail(
+    folder: Path, network_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    target, there = tmp_path / "new.npz", []
+
+    def failing(self: SignatureNetwork, source: Path) -> None:
+        there.append(target.exists())
+        raise UnsupportedMesh("not today")
+
+    monkeypatch.setattr(index_command, "SECONDS_BETWEEN_WRITES", -1.0)
+    monkeypatch.setattr(SignatureNetwork, "signature", failing)
+    assert run("index", folder, "--network", network_file, "-o", target).exit_code == 1
+    assert there == [False, *[True] * (len(SHAPES) - 1)]
 
 
 def test_an_index_elsewhere_and_a_sheet_of_pictures(
