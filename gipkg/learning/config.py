@@ -101,8 +101,8 @@ class TrainingConfig(BaseModel):
     )
     mirror: bool = Field(
         default=False,
-        description="Show every other image mirrored: the image of the mirrored shape. Only "
-        "for channels that a mirror leaves unchanged, such as the HKS.",
+        description="Show every other sample mirrored, all of its images: those of the mirrored "
+        "shape. Only for channels that a mirror leaves unchanged, such as the HKS.",
     )
     scaling: Literal["channel", "joint"] = Field(
         default="channel",

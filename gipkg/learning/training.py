@@ -141,7 +141,9 @@ def train(
         targets = classes[shown[:, 0] // of_a_shape]
         images = flat.index_select(0, torch.from_numpy(shown.ravel())).permute(0, 3, 1, 2)
         if config.mirror:
-            images[::2] = images[::2].transpose(2, 3).clone()
+            # All views of a sample or none: a shape is never seen with some of its views mirrored.
+            samples = images.unflatten(0, (-1, together))
+            samples[::2] = samples[::2].transpose(-2, -1).clone()
         for group in optimiser.param_groups:
             group["lr"] = learning_rate(config, (step + 0.5) / steps)
         torch.manual_seed(int(random.generate_state(1, np.uint64)[0]))

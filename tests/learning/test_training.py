@@ -4,9 +4,18 @@ from itertools import islice
 
 import numpy as np
 import pytest
+import torch
+from torch import Tensor, nn
 
 from gipkg.learning.config import TrainingConfig
-from gipkg.learning.training import batches, drawn_views, learning_rate, number_of_steps
+from gipkg.learning.network import ViewClassifier
+from gipkg.learning.training import (
+    batches,
+    drawn_views,
+    learning_rate,
+    number_of_steps,
+    train,
+)
 
 
 def test_every_epoch_shows_every_sample_once_in_another_order() -> None:
@@ -60,3 +69,34 @@ def test_the_rate_falls_three_times_tenfold_in_steps() -> None:
     config = TrainingConfig(schedule="steps", learning_rate=1e-2)
     rates = [learning_rate(config, done) for done in (0, 0.24, 0.26, 0.51, 0.76, 0.99)]
     np.testing.assert_allclose(rates, [1e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-5])
+
+
+class Witness(ViewClassifier):
+    """Judges a sample by the mean of its pixels and keeps what it is shown."""
+
+    def __init__(self, together: int) -> None:
+        super().__init__()
+        self.together, self.shown = together, list[Tensor]()
+        self.classifier = nn.Linear(1, 2)
+
+    def forward(self, views: Tensor) -> tuple[Tensor, Tensor]:
+        self.shown.append(views.unflatten(0, (-1, self.together)).squeeze(2))
+        means = self.shown[-1].mean(dim=(1, 2, 3))[:, None]
+        return self.classifier(means), means
+
+
+@pytest.mark.parametrize("together", [1, 3])
+def test_every_other_sample_is_mirrored_with_all_of_its_views(together: int) -> None:
+    # The pixel below the corner tells a view from its mirror image.
+    views = torch.rand(8, 6, 4, 4, 1) * 0.5
+    views[:, :, 1, 0], views[:, :, 0, 1] = 1, 0
+    network = Witness(together)
+    config = TrainingConfig(epochs=1, batch_size=4 * together, minimum_steps=1, mirror=True)
+    train(network, views, torch.arange(8) % 2, config, seed=0)
+    known = {view.numpy().tobytes() for view in views.squeeze(-1).flatten(0, 1)}
+    assert len(network.shown) == 48 // (4 * together)
+    for samples in network.shown:
+        mirrored = samples[:, :, 0, 1] == 1
+        assert (mirrored == torch.tensor([[True], [False], [True], [False]])).all()
+        upright = torch.where(mirrored[..., None, None], samples.transpose(-2, -1), samples)
+        assert {view.numpy().tobytes() for view in upright.flatten(0, 1)} <= known
