@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from gipkg.baselines.voxels import principal_frame
+from gipkg.baselines.solids import principal_frame
 
 if TYPE_CHECKING:
     import trimesh
@@ -19,7 +19,7 @@ def stand(mesh: trimesh.Trimesh, upright: Upright) -> trimesh.Trimesh:
     Raises
     ------
     UnsupportedMesh
-        The mesh encloses no positive volume, and so has no principal axes.
+        A principal axis is to stand upright, but the mesh encloses no positive volume.
     """
     if upright == "z":
         return mesh

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gipkg.errors import UnsupportedMesh
+from gipkg.baselines.solids import require_solid
 
 if TYPE_CHECKING:
     import trimesh
@@ -146,7 +146,7 @@ def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: int) -> 
     UnsupportedMesh
         The mesh encloses no positive volume.
     """
-    _volumes(mesh)
+    require_solid(mesh)
     angles = 2 * np.pi * np.arange(turns) / turns
     cosines, sines = np.cos(angles), np.sin(angles)
     x, y, z = np.asarray(mesh.vertices, dtype=np.float64).T
@@ -165,49 +165,3 @@ def turned_solids(mesh: trimesh.Trimesh, turns: int, size: int, extent: int) -> 
         corners = vertices[mesh.faces]
         solid[:] = voxelise(corners, size) | crossed(corners, size)
     return solids
-
-
-def principal_frame(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
-    """Return a rotation into the principal axes of the solid inside a closed mesh.
-
-    Multiplied from the right to (V, 3) vertices, it makes the axis of the largest moment the z
-    axis, and the third moment along it positive. What is left open is half a turn about it.
-
-    Returns
-    -------
-    (3, 3) float64 array
-        Orthonormal columns, determinant 1.
-
-    Raises
-    ------
-    UnsupportedMesh
-        The mesh encloses no positive volume.
-    """
-    corners, volumes = _volumes(mesh)
-    corners -= volumes @ corners.sum(axis=1) / (4 * volumes.sum())
-    volumes = np.linalg.det(corners)
-    weighted = corners * volumes[:, None, None]
-    sums = corners.sum(axis=1)
-    second = np.tensordot(weighted, corners, axes=([0, 1], [0, 1])) + weighted.sum(axis=1).T @ sums
-    x, _, z = np.linalg.eigh(second)[1].T
-    # The integral of a cubic over a tetrahedron, by the power sums at its corners.
-    one, two, three = (((corners @ z) ** power).sum(axis=1) for power in (1, 2, 3))
-    if volumes @ (one**3 + 3 * one * two + 2 * three) < 0:
-        z = -z
-    return np.stack([x, np.cross(z, x), z], axis=1)
-
-
-def _volumes(mesh: trimesh.Trimesh) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the corners (F, 3, 3) of a mesh and six times the volumes (F,) below its faces.
-
-    Both are relative to a vertex of the mesh, so that a far-away mesh loses no digits.
-    """
-    corners = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces]
-    corners = corners - corners[0, 0]
-    volumes = np.linalg.det(corners)
-    if not volumes.sum() > 0:
-        raise UnsupportedMesh(
-            "the mesh encloses no volume: it must be closed and its faces must be oriented "
-            "outwards (gipkg.prepare does)"
-        )
-    return corners, volumes

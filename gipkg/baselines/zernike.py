@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from gipkg.api import BaselineTags
+from gipkg.baselines.solids import about_volume_centroid
 from gipkg.baselines.vectors import VectorBaseline
 from gipkg.baselines.zernike_moments import zernike_moments
-from gipkg.errors import UnsupportedMesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -44,17 +44,7 @@ class Zernike(VectorBaseline):
         UnsupportedMesh
             The mesh encloses no positive volume.
         """
-        corners = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces]
-        # Relative to a vertex of the mesh, so that a far-away mesh loses no digits.
-        corners = corners - corners[0, 0]
-        volumes = np.linalg.det(corners) / 6
-        if not volumes.sum() > 0:
-            raise UnsupportedMesh(
-                f"the mesh encloses a volume of {volumes.sum():.3g}: it must be closed and its "
-                "faces must be oriented outwards (gipkg.prepare does)"
-            )
-        centroid = volumes @ corners.sum(axis=1) / (4 * volumes.sum())
-        corners -= centroid
+        corners = about_volume_centroid(mesh)
         corners /= np.linalg.norm(corners, axis=2).max()
         moments = zernike_moments(corners, self.order)
         return np.array([np.linalg.norm(moments[key]) for key in sorted(moments)])

@@ -5,9 +5,9 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_array_equal
 
-from gipkg.baselines.voxels import crossed, principal_frame, turned_solids, voxelise
+from gipkg.baselines.voxels import crossed, turned_solids, voxelise
 from gipkg.errors import UnsupportedMesh
 from gipkg.testing import meshes
 
@@ -116,25 +116,3 @@ def test_a_mesh_that_is_inside_out_is_refused() -> None:
     mesh.invert()
     with pytest.raises(UnsupportedMesh, match="outwards"):
         turned_solids(mesh, 2, SIZE, 12)
-    with pytest.raises(UnsupportedMesh, match="outwards"):
-        principal_frame(mesh)
-
-
-def test_the_longest_axis_stands_upright_with_its_tail_above() -> None:
-    cone = trimesh.creation.cone(radius=1.0, height=8.0)
-    turn = trimesh.transformations.random_rotation_matrix(np.array([0.1, 0.7, 0.4]))
-    turn[:3, 3] = 1e3
-    cone.apply_transform(turn)
-    frame = principal_frame(cone)
-    assert_allclose(frame.T @ frame, np.eye(3), atol=1e-12)
-    assert np.linalg.det(frame) == pytest.approx(1)
-    assert_allclose(frame[:, 2], turn[:3, 2], atol=1e-6)  # From the base to the tip.
-
-
-def test_a_moved_mesh_stands_as_before_but_for_half_a_turn() -> None:
-    mesh = meshes.limbed()
-    moved = meshes.moved(mesh, np.random.default_rng(0))
-    upright, again = (np.asarray(one.vertices) @ principal_frame(one) for one in (mesh, moved))
-    upright, again = upright - upright.mean(axis=0), again - again.mean(axis=0)
-    assert_allclose(np.abs(again), np.abs(upright), atol=1e-9)
-    assert_allclose(again[:, 2], upright[:, 2], atol=1e-9)
