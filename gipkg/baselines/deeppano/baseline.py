@@ -75,7 +75,7 @@ class DeepPano(Baseline):
         Raises
         ------
         UnsupportedMesh
-            The mesh encloses no positive volume, and so has no principal axes.
+            A principal axis is to stand upright, but the mesh encloses no positive volume.
         """
         from gipkg.baselines.deeppano.panorama import farthest_intersections
 

@@ -110,7 +110,7 @@ class ShapeNets(Baseline):
         Raises
         ------
         UnsupportedMesh
-            No voxel is inside the mesh.
+            The mesh encloses no positive volume.
         """
         return pack(turned_solids(stand(mesh, self.upright), self.rotations, SIZE, EXTENT))
 

@@ -72,7 +72,7 @@ class VoxNet(Baseline):
         Raises
         ------
         UnsupportedMesh
-            No voxel is inside the mesh.
+            The mesh encloses no positive volume.
         """
         return turned_solids(stand(mesh, self.upright), self.rotations, SIZE, EXTENT)
 
