@@ -11,6 +11,7 @@ from pydantic import Field
 from scipy.special import roots_legendre
 
 from gipkg.api import BaselineTags
+from gipkg.baselines.corners import about_area_centroid
 from gipkg.baselines.solid_harmonics import solid_harmonics
 from gipkg.baselines.vectors import VectorBaseline
 
@@ -61,7 +62,7 @@ class SphericalHarmonics(VectorBaseline):
 
     def represent(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float64]:
         """Measure every sphere; (D,) from the innermost out; `operators` are not used."""
-        corners = _normalised(np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces])
+        corners = _normalised(mesh)
         directions, weights, harmonics = _sphere(self.bands)
         radii = RADIUS * (np.arange(self.radii) + 0.5) / self.radii
         squared = _squared_distances(radii[:, None, None] * directions, corners)
@@ -97,17 +98,16 @@ def principal_values(moments: NDArray[np.float64]) -> NDArray[np.float64]:
     return (np.sqrt(2) * values + mixed) / np.sqrt(15)
 
 
-def _normalised(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Move the centroid of a surface of (F, 3, 3) triangles to the origin, and scale it."""
-    # Relative to a corner, so that a far-away mesh loses no digits.
-    corners = corners - corners[0, 0]
-    sides = corners[:, 1:] - corners[:, :1]
-    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    areas /= areas.sum()
-    corners = corners - areas @ corners.mean(axis=1)
+def _normalised(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+    """Return the corners (F, 3, 3) of the faces about the centroid of the surface, scaled.
+
+    By the mean distance, as the original does: other baselines go by the farthest vertex, which
+    a thin limb decides alone.
+    """
+    corners, areas = about_area_centroid(mesh)
     # The rule of edge midpoints: of degree 2, and there are many triangles.
     midpoints = (corners + np.roll(corners, 1, axis=1)) / 2
-    distance = areas @ np.linalg.norm(midpoints, axis=2).mean(axis=1)
+    distance = areas @ np.linalg.norm(midpoints, axis=2).mean(axis=1) / areas.sum()
     return corners * (MEAN_DISTANCE / distance)
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from gipkg.api import BaselineTags
+from gipkg.baselines.corners import in_unit_ball
 from gipkg.baselines.solids import about_volume_centroid
 from gipkg.baselines.vectors import VectorBaseline
 from gipkg.baselines.zernike_moments import zernike_moments
@@ -44,7 +45,6 @@ class Zernike(VectorBaseline):
         UnsupportedMesh
             The mesh encloses no positive volume.
         """
-        corners = about_volume_centroid(mesh)
-        corners /= np.linalg.norm(corners, axis=2).max()
+        corners = in_unit_ball(about_volume_centroid(mesh))
         moments = zernike_moments(corners, self.order)
         return np.array([np.linalg.norm(moments[key]) for key in sorted(moments)])

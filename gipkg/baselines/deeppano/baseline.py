@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, PositiveInt
 
 from gipkg.api import Baseline, BaselineTags
+from gipkg.baselines.corners import about_area_centroid, in_unit_ball
 from gipkg.baselines.upright import Upright, stand
 
 if TYPE_CHECKING:
@@ -79,15 +80,9 @@ class DeepPano(Baseline):
         """
         from gipkg.baselines.deeppano.panorama import farthest_intersections
 
-        mesh = stand(mesh, self.upright)
-        corners = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces]
-        # Relative to a corner, so that a far-away mesh loses no digits.
-        corners = corners - corners[0, 0]
-        sides = corners[:, 1:] - corners[:, :1]
-        areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-        corners -= areas @ corners.mean(axis=1) / areas.sum()
-        corners /= np.linalg.norm(corners, axis=2).max()
-        return np.rint(255 * farthest_intersections(corners, ROWS, COLUMNS)).astype(np.uint8)
+        corners, _ = about_area_centroid(stand(mesh, self.upright))
+        depth = farthest_intersections(in_unit_ball(corners), ROWS, COLUMNS)
+        return np.rint(255 * depth).astype(np.uint8)
 
     def predict(
         self,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from gipkg.api import Baseline, BaselineTags
+from gipkg.baselines.corners import about_area_centroid, in_unit_ball
 from gipkg.baselines.light_field.cameras import directions
 from gipkg.baselines.light_field.distance import pairwise_distances, quantise
 from gipkg.baselines.light_field.features import silhouette_features
@@ -48,11 +49,8 @@ class LightField(Baseline):
 
     def represent(self, mesh: trimesh.Trimesh, operators: Operators) -> NDArray[np.float32]:
         """Measure every silhouette; (10, 10, 47); `operators` are not used."""
-        corners = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces]
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        areas = np.linalg.norm(normals, axis=1)
-        corners = corners - areas @ corners.mean(axis=1) / areas.sum()
-        corners /= np.linalg.norm(corners, axis=2).max()
+        corners, _ = about_area_centroid(mesh)
+        corners = in_unit_ball(corners)
         systems, views = directions().shape[:2]
         features = [
             silhouette_features(silhouette(corners, direction))
