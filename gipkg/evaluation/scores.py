@@ -45,6 +45,11 @@ def score(prediction: Prediction, truth: Mapping[str, str]) -> Scores:
         The whole test part. A shape that was not predicted counts as misclassified, so that
         a method gains nothing by failing on hard shapes; retrieval cannot rank it and leaves
         it out.
+
+    Raises
+    ------
+    ValueError
+        No shape was predicted, no two of one class were, or distances are not finite.
     """
     column = {name: index for index, name in enumerate(prediction.classes)}
     labels = [truth[shape_id] for shape_id in prediction.ids]

@@ -52,6 +52,11 @@ class PixelLookup:
         Returns
         -------
         (K, C, n, n) array
+
+        Raises
+        ------
+        ValueError
+            The channels are not one row a vertex.
         """
         channels = np.asarray(channels, dtype=np.float64)
         if channels.ndim != 2 or len(channels) != self.vertices:
@@ -95,6 +100,8 @@ def lookup(
     ------
     UnsupportedMesh
         The mesh is not a closed genus-0 surface, or its map does not cover the sphere.
+    ValueError
+        There are fewer than 3 pixels along a side, or there is no such sampling.
     """
     mesh = spherical_map.mesh
     check_genus_zero(mesh)
@@ -147,8 +154,8 @@ def geometry_image(
 
     Raises
     ------
-    UnsupportedMesh
-        As :func:`lookup`.
+    UnsupportedMesh, ValueError
+        As :func:`lookup` and :meth:`PixelLookup.render`.
     """
     cuts = Rotation.identity() if cut is None else cut
     return lookup(spherical_map, size, cuts, sampling).render(channels, np.float64)[0]

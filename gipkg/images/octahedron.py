@@ -44,6 +44,11 @@ def sphere_to_square(
     -------
     (..., 2) float64 array
         u and v in [-1, 1].
+
+    Raises
+    ------
+    ValueError
+        There is no such sampling.
     """
     directions = np.asarray(directions, dtype=np.float64)
     folded = np.abs(directions)
@@ -70,6 +75,11 @@ def square_to_sphere(points: ArrayLike, sampling: Sampling = "equal-area") -> ND
     -------
     (..., 3) float64 array
         Unit vectors.
+
+    Raises
+    ------
+    ValueError
+        There is no such sampling.
     """
     points = np.asarray(points, dtype=np.float64)
     u, v = np.abs(points[..., 0]), np.abs(points[..., 1])
@@ -93,6 +103,11 @@ def pixel_directions(size: int, sampling: Sampling = "equal-area") -> NDArray[np
     Pixels sit on the vertices of a grid whose border is the cut, so that a border pixel and
     its mirror image about the middle of its side are one point of the sphere. Columns run
     with u, rows against v: an image drawn with row 0 on top is seen from outside.
+
+    Raises
+    ------
+    ValueError
+        There is no such sampling.
     """
     # Odd integers over an integer: exactly antisymmetric about 0, unlike a linspace.
     axis = (2 * np.arange(size) - (size - 1)) / (size - 1)

@@ -38,6 +38,11 @@ def pad(images: Images, margin: int) -> Images:
     Returns
     -------
     (..., n + 2 margin, n + 2 margin) array or tensor, of the kind given
+
+    Raises
+    ------
+    ValueError
+        The margin is negative, or not below n.
     """
     rows, columns = padding_indices(images.shape[-1], margin)
     return images[..., rows, columns]
@@ -49,6 +54,11 @@ def padding_indices(size: int, margin: int) -> tuple[NDArray[np.int64], NDArray[
     Returns
     -------
     rows, columns : (size + 2 margin, size + 2 margin) int64 arrays
+
+    Raises
+    ------
+    ValueError
+        The margin is negative, or not below the size.
     """
     if not 0 <= margin < size:
         raise ValueError(f"margin is {margin}, it must be 0 to {size - 1} for {size} pixels")

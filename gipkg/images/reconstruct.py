@@ -26,6 +26,11 @@ def reconstruct(image: NDArray[np.floating]) -> trimesh.Trimesh:
     -------
     trimesh.Trimesh
         Oriented as the surface that the image was made of.
+
+    Raises
+    ------
+    ValueError
+        The image is none of positions, or has fewer than 3 x 3 pixels.
     """
     image = np.asarray(image, dtype=np.float64)
     if image.ndim != 3 or image.shape[0] != 3 or image.shape[1] != image.shape[2]:

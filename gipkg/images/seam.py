@@ -21,6 +21,11 @@ def canonical_pixels(size: int) -> NDArray[np.int64]:
     -------
     (n, n) int64 array
         Flat indices ``row * n + column``.
+
+    Raises
+    ------
+    ValueError
+        The image has fewer than 3 x 3 pixels.
     """
     if size < 3:
         raise ValueError(f"a geometry image needs at least 3 x 3 pixels, not {size} x {size}")

@@ -79,7 +79,8 @@ def train_classifier(
     Raises
     ------
     LearningError
-        The device is absent, or the training diverged.
+        The device is absent, there are fewer views of a shape than the network pools, or the
+        training diverged.
     DamagedFileError
         The checkpoint cannot be read.
     """

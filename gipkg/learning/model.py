@@ -150,10 +150,12 @@ def train_model(
     Raises
     ------
     LearningError
-        The images are too small for the network, the device is absent, or the training
-        diverged.
+        The images are too small for the network, there are fewer of a shape than it pools, the
+        device is absent, or the training diverged.
     DamagedFileError
         The checkpoint cannot be read.
+    ValueError
+        The images are no larger than the network's margin.
     """
     network, training = network or NetworkConfig(), training or TrainingConfig()
     size = images[ids[0]].shape[-1]

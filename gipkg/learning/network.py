@@ -66,6 +66,11 @@ class ImageNetwork(ViewClassifier):
         A view is (channels, size, size).
     classes : int
         Number of classes k.
+
+    Raises
+    ------
+    LearningError
+        At construction if nothing is left of so small a view.
     """
 
     def __init__(self, config: NetworkConfig, channels: int, size: int, classes: int) -> None:

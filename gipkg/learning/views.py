@@ -23,6 +23,11 @@ class Layout:
         Pixels of padding on each side.
     permutation : (n * n,) int64 array or None
         New order of the pixels of every image: the control of a shuffled layout.
+
+    Raises
+    ------
+    ValueError
+        At the first image that is no larger than the margin.
     """
 
     margin: int

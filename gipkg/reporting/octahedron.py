@@ -75,6 +75,11 @@ def sphere_to_octahedron(
     directions : (..., 3) float64 array
         Unit vectors.
     sampling : {"equal-area", "authors"}
+
+    Raises
+    ------
+    ValueError
+        There is no such sampling.
     """
     octant = sphere_to_square(np.abs(directions), sampling)
     height = 1 - octant.sum(axis=-1, keepdims=True)

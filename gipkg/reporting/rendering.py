@@ -123,6 +123,8 @@ def render_mesh(
     ------
     RenderingError
         This machine cannot draw off-screen; the message says what to install.
+    ValueError
+        The colours of a surface are neither one, nor one a vertex, nor one a face.
     """
     if camera is None:
         camera = principal_camera(np.asarray(mesh.vertices), size[0] / size[1])
@@ -149,6 +151,8 @@ def render(
     ------
     RenderingError
         This machine cannot draw off-screen; the message says what to install.
+    ValueError
+        The colours of a surface are neither one, nor one a vertex, nor one a face.
     """
     pv = _pyvista()
     large = [_OVERSAMPLING * length for length in size]

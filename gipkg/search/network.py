@@ -70,6 +70,8 @@ class SignatureNetwork:
         ------
         DamagedFileError
             It is no network of ours, or does not say how its images are made.
+        LearningError
+            The device is absent.
         PluginError
             Its images need a plugin that is not there or not allowed.
         """

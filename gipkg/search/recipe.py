@@ -97,7 +97,8 @@ class ImageMaker:
         Raises
         ------
         PluginError
-            A plugin is in a file that is not allowed, or cannot be loaded.
+            A plugin is in a file that is not allowed, cannot be loaded, or does not take its
+            parameters.
         """
         for kind, spec in recipe.specs():
             if spec.target is None:

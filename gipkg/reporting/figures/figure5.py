@@ -139,8 +139,8 @@ def compare(mesh: trimesh.Trimesh, parametrizer: Parametrizer, size: int) -> Pro
 
     Raises
     ------
-    ValueError
-        The shape has no limbs to bend.
+    UnsupportedMesh
+        The shape has no limbs to bend, or its map does not cover the sphere.
     """
     camera = principal_camera(np.asarray(mesh.vertices))
     upright = np.stack([np.cross(camera.up, camera.towards_eye), camera.up, camera.towards_eye])
