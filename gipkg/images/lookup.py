@@ -38,6 +38,11 @@ class PixelLookup:
     weights: NDArray[np.float64]
     vertices: int
 
+    @property
+    def nearest(self) -> NDArray[np.integer]:
+        """Vertex (K, n, n) of greatest weight at each pixel."""
+        return self.faces[self.face, self.weights.argmax(axis=-1)]
+
     def render(self, channels: NDArray[np.floating], dtype: DTypeLike = np.float32) -> NDArray:
         """Interpolate per-vertex channels linearly within the faces.
 

@@ -83,8 +83,7 @@ def measure(
     faces, areas = np.asarray(mesh.faces), distortion(spherical_map)
     ratio = areas.spherical_areas / areas.mesh_areas
     flipped = flipped_faces(spherical_map.sphere, faces)
-    nearest = faces[located.face, located.weights.argmax(axis=-1)]
-    distance = _distances(mesh, reconstruction)
+    nearest, distance = located.nearest, _distances(mesh, reconstruction)
 
     def part(name: str, inside: NDArray[np.bool_], hausdorff: float) -> Part:
         corners = inside[faces]

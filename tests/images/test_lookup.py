@@ -62,6 +62,13 @@ def test_a_cut_is_a_rotation_of_the_sphere(star_map, seed: int) -> None:
     )
 
 
+def test_the_nearest_vertex_is_the_one_that_counts_most(star_map) -> None:
+    spherical_map = star_map(7, 60)
+    pixels = lookup(spherical_map, 20, standard_cuts()[:3])
+    one_hot = pixels.render(np.eye(60), np.float64)
+    assert_array_equal(pixels.nearest, one_hot.argmax(axis=1))
+
+
 def test_all_cuts_at_once_equal_one_by_one(star_map) -> None:
     spherical_map, cuts = star_map(5, 100), standard_cuts()
     channels = np.random.default_rng(5).standard_normal((100, 2))

@@ -107,9 +107,7 @@ class Cuts:
     def views(self) -> list[View]:
         """Say in numbers where every cut puts the parts."""
         rows = []
-        corners = self.located.faces[self.located.face]
-        largest = self.located.weights.argmax(-1)[..., None]
-        nearest = np.take_along_axis(corners, largest, -1)[..., 0]
+        nearest = self.located.nearest
         for number, (axis, turn) in enumerate(self.names):
             for name, (end, inside) in self.parts.items():
                 place = self.cuts[number].apply(self.spherical_map.sphere[end])
