@@ -29,6 +29,11 @@ class Camera:
     up: NDArray[np.float64]
     half_height: float
 
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors (3, 3), as rows: to the right, upward, to the eye."""
+        return np.stack([np.cross(self.up, self.towards_eye), self.up, self.towards_eye])
+
 
 def camera_on(
     points: NDArray[np.floating],

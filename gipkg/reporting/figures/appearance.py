@@ -82,14 +82,22 @@ class RoundSphere:
         return np.asarray(reconstruct(np.moveaxis(of_faces[self.located.face[0]], -1, 0)).vertices)
 
 
+def as_seen(mesh: trimesh.Trimesh, camera: Camera) -> NDArray[np.float64]:
+    """Turn the vertices (V, 3) as a camera sees them: x to the right, y upward, z to the eye.
+
+    The centroid of the surface becomes the origin.
+    """
+    vertices = np.asarray(mesh.vertices)
+    seen: NDArray[np.float64] = (vertices - vertex_areas(mesh) @ vertices) @ camera.axes.T
+    return seen
+
+
 def facing(spherical_map: SphericalMap, camera: Camera) -> Rotation:
-    """Turn a sphere as its mesh is seen: x to the right, y upward, z to the eye.
+    """Turn a sphere as its mesh is seen.
 
     It is the rotation that brings the sphere's points nearest to the mesh's, by area. As a cut
     it puts what the eye sees in the middle of the geometry image, the right way up.
     """
-    vertices = np.asarray(spherical_map.mesh.vertices)
-    weights = vertex_areas(spherical_map.mesh)
-    axes = np.stack([np.cross(camera.up, camera.towards_eye), camera.up, camera.towards_eye])
-    seen = (vertices - weights @ vertices) @ axes.T
-    return Rotation.align_vectors(seen, spherical_map.sphere, weights)[0]
+    mesh = spherical_map.mesh
+    seen = as_seen(mesh, camera)
+    return Rotation.align_vectors(seen, spherical_map.sphere, vertex_areas(mesh))[0]

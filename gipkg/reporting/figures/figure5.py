@@ -21,7 +21,7 @@ from gipkg.reporting.articulation import bend, stretching
 from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import CUT, INK, category, diverging, sequential
 from gipkg.reporting.cut_lines import cut_lines
-from gipkg.reporting.figures.appearance import facing
+from gipkg.reporting.figures.appearance import as_seen, facing
 from gipkg.reporting.figures.layout import page, panel, pixels
 from gipkg.reporting.rendering import Lines, Surface, render
 from gipkg.reporting.tips import vertex_areas
@@ -143,8 +143,7 @@ def compare(mesh: trimesh.Trimesh, parametrizer: Parametrizer, size: int) -> Pro
         The shape has no limbs to bend, or its map does not cover the sphere.
     """
     camera = principal_camera(np.asarray(mesh.vertices))
-    upright = np.stack([np.cross(camera.up, camera.towards_eye), camera.up, camera.towards_eye])
-    seen = (np.asarray(mesh.vertices) - vertex_areas(mesh) @ mesh.vertices) @ upright.T
+    seen = as_seen(mesh, camera)
     still = trimesh.Trimesh(seen, mesh.faces, process=False)
     original = _pose(still, parametrizer, size)
     turned = trimesh.Trimesh(seen * [-1, -1, 1], mesh.faces, process=False)

@@ -15,8 +15,7 @@ from scipy.spatial.transform import Rotation
 from gipkg.api import SphericalMap
 from gipkg.evaluation.distortion import distortion
 from gipkg.reporting.cameras import principal_camera
-from gipkg.reporting.figures.appearance import facing
-from gipkg.reporting.tips import vertex_areas
+from gipkg.reporting.figures.appearance import as_seen, facing
 
 RATIO = "area ratio (log2)"
 """The channel that every map has of its own."""
@@ -53,10 +52,8 @@ def as_data(scene: Scene) -> dict[str, Any]:
     the right, y upward, z to the eye; each sphere is turned with it. The area ratio of every map
     comes with it, in the order of the vertices (`RATIO`).
     """
-    vertices, faces = np.asarray(scene.mesh.vertices), np.asarray(scene.mesh.faces)
-    camera = principal_camera(vertices)
-    axes = np.stack([np.cross(camera.up, camera.towards_eye), camera.up, camera.towards_eye])
-    seen = (vertices - vertex_areas(scene.mesh) @ vertices) @ axes.T
+    camera = principal_camera(np.asarray(scene.mesh.vertices))
+    seen = as_seen(scene.mesh, camera)
     seen = seen / np.linalg.norm(seen, axis=1).max()
     coordinates = dict(zip("xyz", seen.T, strict=True))
     maps = []
@@ -77,7 +74,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
         "name": scene.name,
         "note": scene.note,
         "vertices": _packed(seen, "<f4"),
-        "faces": _packed(faces, "<u4"),
+        "faces": _packed(np.asarray(scene.mesh.faces), "<u4"),
         "maps": maps,
         "channels": [
             {"name": name, "values": _packed(values, "<f4")}
