@@ -18,6 +18,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, PositiveInt
 
 Block = Annotated[tuple[PositiveInt, ...], Field(min_length=1)]
+Precision = Literal["auto", "float32", "bfloat16"]
 
 
 class NetworkConfig(BaseModel):
@@ -114,7 +115,7 @@ class TrainingConfig(BaseModel):
         description="A control: one random permutation of the pixels, the same for all images, "
         "leaves the values of an image and destroys its layout.",
     )
-    precision: Literal["auto", "float32", "bfloat16"] = Field(
+    precision: Precision = Field(
         default="auto",
         description="Arithmetic of the training; auto is bfloat16 where the processor has "
         "instructions for it, else float32. Prediction is always in float32.",

@@ -5,13 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Literal
+from typing import Any
 
 import torch
 
 from gipkg.errors import LearningError
-
-Precision = Literal["auto", "float32", "bfloat16"]
+from gipkg.learning.config import Precision
 
 
 def choose_device(name: str) -> torch.device:

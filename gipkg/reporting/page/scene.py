@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
-from gipkg.evaluation.distortion import distortion
+from gipkg.evaluation.distortion import Distortion, distortion
 from gipkg.reporting.cameras import principal_camera
 from gipkg.reporting.figures.appearance import as_seen, facing
 
@@ -52,6 +52,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
     the right, y upward, z to the eye; each sphere is turned with it. The area ratio of every map
     comes with it, in the order of the vertices (`RATIO`).
     """
+    faces = np.asarray(scene.mesh.faces)
     camera = principal_camera(np.asarray(scene.mesh.vertices))
     seen = as_seen(scene.mesh, camera)
     seen = seen / np.linalg.norm(seen, axis=1).max()
@@ -65,7 +66,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
             {
                 "name": name,
                 "sphere": _packed(turned.apply(sphere), "<f4"),
-                "ratio": _packed(_vertex_ratio(scene.mesh, spherical_map), "<f4"),
+                "ratio": _packed(_vertex_ratio(measured, faces), "<f4"),
                 "std": measured.face_std,
                 "flips": measured.flips,
             }
@@ -74,7 +75,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
         "name": scene.name,
         "note": scene.note,
         "vertices": _packed(seen, "<f4"),
-        "faces": _packed(np.asarray(scene.mesh.faces), "<u4"),
+        "faces": _packed(faces, "<u4"),
         "maps": maps,
         "channels": [
             {"name": name, "values": _packed(values, "<f4")}
@@ -83,11 +84,10 @@ def as_data(scene: Scene) -> dict[str, Any]:
     }
 
 
-def _vertex_ratio(mesh: trimesh.Trimesh, spherical_map: SphericalMap) -> NDArray[np.float64]:
+def _vertex_ratio(measured: Distortion, faces: NDArray[np.integer]) -> NDArray[np.float64]:
     """Return log2 of sphere over mesh area (V,) of what is around each vertex, cut off at ±4."""
-    measured, faces = distortion(spherical_map), np.asarray(mesh.faces).ravel()
     on_sphere, on_mesh = (
-        np.bincount(faces, np.repeat(areas, 3), len(mesh.vertices))
+        np.bincount(faces.ravel(), np.repeat(areas, 3))
         for areas in (measured.spherical_areas, measured.mesh_areas)
     )
     return np.log2((on_sphere / on_mesh).clip(2.0**-4, 2.0**4))
