@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
 
 from gipkg.baselines.solids import principal_frame
 
 if TYPE_CHECKING:
     import trimesh
 
-Upright = Literal["principal", "z"]
+Upright = Annotated[
+    Literal["principal", "z"],
+    Field(
+        description="What stands upright: the longest principal axis of the solid, or the z axis "
+        "of the database"
+    ),
+]
 """The longest principal axis of the solid, its heavier tail above, or the z axis."""
 
 

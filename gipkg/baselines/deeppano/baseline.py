@@ -58,11 +58,7 @@ class DeepPano(Baseline):
     )
     tags: ClassVar[BaselineTags] = BaselineTags(scale_invariant=True)
 
-    upright: Upright = Field(
-        "principal",
-        description="What stands upright: the longest principal axis of the solid, or the z axis "
-        "of the database",
-    )
+    upright: Upright = "principal"
     maps: tuple[PositiveInt, PositiveInt, PositiveInt, PositiveInt] = Field(
         (32, 64, 128, 256), description="Feature maps of the four convolutions"
     )

@@ -50,11 +50,7 @@ class VoxNet(Baseline):
     )
     tags: ClassVar[BaselineTags] = BaselineTags(scale_invariant=True)
 
-    upright: Upright = Field(
-        "principal",
-        description="What stands upright: the longest principal axis of the solid, or the z axis "
-        "of the database",
-    )
+    upright: Upright = "principal"
     rotations: int = Field(
         12, ge=2, le=72, multiple_of=2, description="Number of rotations about the upright axis"
     )
