@@ -25,7 +25,8 @@ DIGITS = {"accuracy": 2, "mAP": 4}
 OWN = "Ours"
 """What the paper calls its own method."""
 
-_ABSENT = "–"
+ABSENT = "–"
+"""What stands in a table for readers where there is no figure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,24 +114,27 @@ def as_csv(rows: Sequence[Row], columns: Sequence[str]) -> tuple[list[str], list
     lines : list of list of str
         A standard deviation of a single split is empty.
     """
-    header = ["database", "split"]
-    header += [
+    header = ["database", "split", *figure_names(columns)]
+    lines = [
+        [row.database, row.split, *figures_of(row.cells[column] for column in columns)]
+        for row in rows
+    ]
+    return header, lines
+
+
+def figure_names(columns: Iterable[str]) -> list[str]:
+    """Name the four figures of each column: mean and deviation of each metric."""
+    return [
         f"{column} {metric} {part}"
         for column in columns
         for metric in METRICS
         for part in ("mean", "std")
     ]
-    lines = [
-        [row.database, row.split]
-        + [
-            figure
-            for column in columns
-            for metric in METRICS
-            for figure in mean_and_std(row.cells[column], metric)
-        ]
-        for row in rows
-    ]
-    return header, lines
+
+
+def figures_of(cells: Iterable[Cell]) -> list[str]:
+    """Write the four figures of each cell, in the order of :func:`figure_names`."""
+    return [figure for cell in cells for metric in METRICS for figure in mean_and_std(cell, metric)]
 
 
 def as_markdown(
@@ -167,7 +171,7 @@ def as_markdown(
         )
         printed = [reference.figures.get((row.split, name or "")) for name in columns.values()]
         if any(printed):
-            cells = [f"*{_as_printed(figures)}*" if figures else _ABSENT for figures in printed]
+            cells = [f"*{_as_printed(figures)}*" if figures else ABSENT for figures in printed]
             lines.append(markdown_line(["*in the paper*", *cells]))
     lines += ["", "## Notes", "", *(f"- {note}" for note in notes)]
     lines += ["", "## The paper's table in full", "", *_printed(reference)]
@@ -182,7 +186,7 @@ def _printed(reference: Reference) -> list[str]:
         markdown_line(["---"] * (len(reference.methods) + 1)),
         *(
             markdown_line(
-                [split, *(cells.get((split, name), _ABSENT) for name in reference.methods)]
+                [split, *(cells.get((split, name), ABSENT) for name in reference.methods)]
             )
             for split in splits
         ),
@@ -190,7 +194,7 @@ def _printed(reference: Reference) -> list[str]:
 
 
 def _as_printed(figures: tuple[str, str]) -> str:
-    return " / ".join(figure or _ABSENT for figure in figures)
+    return " / ".join(figure or ABSENT for figure in figures)
 
 
 def measured(cell: Cell) -> str:

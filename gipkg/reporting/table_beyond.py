@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from gipkg.reporting.score_table import METRICS, Cell, markdown_line, mean_and_std, measured
+from gipkg.reporting.score_table import Cell, figure_names, figures_of, markdown_line, measured
 
 FEW_SHOT = "training shapes a class"
 """Heading of the rows that differ in how many shapes of each class train."""
@@ -54,21 +54,9 @@ def as_csv(rows: Sequence[Row]) -> tuple[list[str], list[list[str]]]:
     lines : list of list of str
         A standard deviation of a single split is empty.
     """
-    header = ["experiment", "setting", "amount", "splits"]
-    header += [
-        f"{column} {metric} {part}"
-        for column in rows[0].cells
-        for metric in METRICS
-        for part in ("mean", "std")
-    ]
+    header = ["experiment", "setting", "amount", "splits", *figure_names(rows[0].cells)]
     lines = [
-        [row.experiment, row.setting, row.amount, str(row.splits)]
-        + [
-            figure
-            for cell in row.cells.values()
-            for metric in METRICS
-            for figure in mean_and_std(cell, metric)
-        ]
+        [row.experiment, row.setting, row.amount, str(row.splits), *figures_of(row.cells.values())]
         for row in rows
     ]
     return header, lines

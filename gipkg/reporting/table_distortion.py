@@ -10,14 +10,12 @@ import numpy as np
 
 from gipkg.files import read_csv
 from gipkg.reporting.notes import literal
-from gipkg.reporting.score_table import markdown_line
+from gipkg.reporting.score_table import ABSENT, markdown_line
 from gipkg.reporting.shapes import MappedShape
 
 _RATIOS = ("face_std", "weighted_face_std", "vertex_std")
 FIGURES = ("variance", *_RATIOS, "seconds")
 """Figures of a shape that the table spreads over the shapes."""
-
-_ABSENT = "–"
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +177,7 @@ def _section(
                     f"{row.vertices[0]} to {row.vertices[1]}",
                     _number(row.variance, 3),
                     f"{_number(variance.mean, 3)} / {_number(variance.median, 3)}",
-                    f"*{printed}*" if printed else _ABSENT,
+                    f"*{printed}*" if printed else ABSENT,
                     *(_pair(row.spreads[name]) for name in _RATIOS),
                     str(row.flipped_shapes),
                     str(row.flips),
@@ -195,5 +193,5 @@ def _pair(spread: Spread) -> str:
     return f"{_number(spread.median, 3)} / {_number(spread.worst, 3)}"
 
 
-def _number(value: float, digits: int, absent: str = _ABSENT) -> str:
+def _number(value: float, digits: int, absent: str = ABSENT) -> str:
     return absent if np.isnan(value) else f"{value:.{digits}g}"

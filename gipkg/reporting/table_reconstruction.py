@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from gipkg.reporting.notes import literal
-from gipkg.reporting.score_table import markdown_line
-
-_ABSENT = "–"
+from gipkg.reporting.score_table import ABSENT, markdown_line
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,5 +108,5 @@ def _cell(entries: Sequence[Entry]) -> str:
     largest = [100 * one.hausdorff for one in entries if one.hausdorff is not None]
     mean = [100 * one.mean for one in entries if one.mean is not None]
     if not largest:
-        return _ABSENT
+        return ABSENT
     return f"{median(largest):.2f} / {max(largest):.2f} ({median(mean):.3f})"
