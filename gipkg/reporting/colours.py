@@ -53,3 +53,8 @@ def diverging(values: NDArray[np.floating], limit: float) -> NDArray[np.float64]
     from matplotlib import colormaps
 
     return colormaps[DIVERGING](0.5 + np.asarray(values) / (2 * limit))[:, :3]
+
+
+def as_bytes(colours: NDArray[np.floating]) -> NDArray[np.uint8]:
+    """Turn colours of any shape from 0 to 1 into bytes; what is beyond is cut off."""
+    return np.rint(255 * colours.clip(0, 1)).astype(np.uint8)

@@ -10,14 +10,13 @@ from gipkg.api import SphericalMap
 from gipkg.images.lookup import geometry_image
 from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import principal_camera
-from gipkg.reporting.colours import sequential
+from gipkg.reporting.colours import as_bytes, sequential
 from gipkg.reporting.figures.appearance import FRONT, RoundSphere, facing, shaded
 from gipkg.reporting.rendering import Surface, render, render_mesh
 
 Picture = NDArray[np.uint8]
 """(height, width, 3), red, green and blue."""
 
-_WHITE = 255
 _DARKEST = 0.25
 """Least red, green or blue of a place: shades stay visible."""
 
@@ -48,7 +47,7 @@ def of_map(spherical_map: SphericalMap, size: int) -> Picture:
         [
             render([Surface(mesh, colours)], camera, (size, size)),
             render([Surface(grid.mesh(), grid.colours(colours))], FRONT, (size, size)),
-            _as_bytes(image),
+            as_bytes(image),
         ]
     )
 
@@ -82,8 +81,4 @@ def _place_colours(places: NDArray[np.float64]) -> NDArray[np.float64]:
 def _enlarged(colours: NDArray[np.float64], size: int) -> Picture:
     """Repeat or leave out the pixels of a square picture (n, n, 3), to (size, size, 3)."""
     chosen = (np.arange(size) * len(colours)) // size
-    return _as_bytes(colours[np.ix_(chosen, chosen)])
-
-
-def _as_bytes(colours: NDArray[np.float64]) -> Picture:
-    return np.rint(_WHITE * colours.clip(0, 1)).astype(np.uint8)
+    return as_bytes(colours[np.ix_(chosen, chosen)])

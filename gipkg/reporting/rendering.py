@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gipkg.errors import RenderingError
 from gipkg.reporting.cameras import Camera, principal_camera
+from gipkg.reporting.colours import as_bytes
 
 if TYPE_CHECKING:
     import pyvista
@@ -201,7 +202,7 @@ def _add_surface(plotter: pyvista.Plotter, pv: ModuleType, part: Surface) -> Non
                 f"colours are {colours.shape}, they must be (3,), ({len(mesh.vertices)}, 3) for "
                 f"the vertices or ({len(mesh.faces)}, 3) for the faces"
             )
-        data[len(colours)]["colours"] = np.rint(255 * colours.clip(0, 1)).astype(np.uint8)
+        data[len(colours)]["colours"] = as_bytes(colours)
         options |= {"scalars": "colours", "rgb": True}
     if part.smooth:
         # VTK's own smooth shading may turn or split vertices; ours are those of the mesh.
