@@ -13,8 +13,8 @@ from scipy.io import loadmat
 from gipkg.errors import UnsupportedMesh
 from gipkg.formats.reading import load_mesh
 from gipkg.surfaces import prepare
+from tests.surfaces.prepared import assert_untouched
 from tests.surfaces.solids import assert_genus_zero, bare
-from tests.surfaces.test_preparation import assert_untouched
 
 CLOSED = ["armadillo", "brain", "bull", "bunny00", "camel", "david1"]
 CLOSED += ["dino", "hand", "homer", "lion", "maxplanck", "twistedball"]
