@@ -72,8 +72,8 @@ class Model:
         Prediction
             Scores are the softmax averaged over the views of a shape, embeddings the activations
             of the fully connected layer averaged likewise, of length 1 where the network is
-            configured so. What is said of a shape depends on no
-            other one, and is the same bit by bit for a model read from its file.
+            configured so. What is said of a shape depends on no other one, and is the same bit by
+            bit for a model read from its file.
 
         Raises
         ------
