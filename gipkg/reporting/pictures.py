@@ -11,7 +11,7 @@ from gipkg.images.lookup import geometry_image
 from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import principal_camera
 from gipkg.reporting.colours import as_bytes, sequential
-from gipkg.reporting.figures.appearance import FRONT, RoundSphere, facing, shaded
+from gipkg.reporting.figures.appearance import FRONT, RoundSphere, shaded, turned_as_seen
 from gipkg.reporting.rendering import Surface, render, render_mesh
 
 Picture = NDArray[np.uint8]
@@ -39,7 +39,7 @@ def of_map(spherical_map: SphericalMap, size: int) -> Picture:
     """
     mesh = spherical_map.mesh
     camera = principal_camera(np.asarray(mesh.vertices))
-    turned = SphericalMap(mesh, facing(spherical_map, camera).apply(spherical_map.sphere))
+    turned = turned_as_seen(spherical_map, camera)
     colours = shaded(mesh, _place_colours(np.asarray(mesh.vertices)), camera)
     grid = RoundSphere.of(turned)
     image = np.moveaxis(geometry_image(turned, colours, size), 0, -1)

@@ -101,3 +101,9 @@ def facing(spherical_map: SphericalMap, camera: Camera) -> Rotation:
     mesh = spherical_map.mesh
     seen = as_seen(mesh, camera)
     return Rotation.align_vectors(seen, spherical_map.sphere, vertex_areas(mesh))[0]
+
+
+def turned_as_seen(spherical_map: SphericalMap, camera: Camera) -> SphericalMap:
+    """Return a map with its sphere turned by :func:`facing`."""
+    turn = facing(spherical_map, camera)
+    return SphericalMap(spherical_map.mesh, turn.apply(spherical_map.sphere))

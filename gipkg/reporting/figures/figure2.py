@@ -16,7 +16,14 @@ from gipkg.images.lookup import PixelLookup, lookup
 from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import INK
-from gipkg.reporting.figures.appearance import BACK, FRONT, RoundSphere, facing, shaded, tip_colours
+from gipkg.reporting.figures.appearance import (
+    BACK,
+    FRONT,
+    RoundSphere,
+    shaded,
+    tip_colours,
+    turned_as_seen,
+)
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
 from gipkg.reporting.parts import Part, measure
 from gipkg.reporting.rendering import render_mesh
@@ -85,8 +92,7 @@ def compare(
     tips = limb_tips(mesh)
     methods = {}
     for name, sphere in spheres.items():
-        turn = facing(SphericalMap(mesh, sphere), camera)
-        spherical_map = SphericalMap(mesh, turn.apply(sphere))
+        spherical_map = turned_as_seen(SphericalMap(mesh, sphere), camera)
         located = lookup(spherical_map, size, Rotation.identity())
         again = reconstruct(located.render(np.asarray(mesh.vertices), np.float64)[0])
         parts = measure(name, spherical_map, located, again, tips)

@@ -21,9 +21,9 @@ from gipkg.reporting.cameras import Camera, principal_camera
 from gipkg.reporting.colours import INK, category, sequential
 from gipkg.reporting.figures.appearance import (
     RoundSphere,
-    facing,
     shaded,
     sphere_camera,
+    turned_as_seen,
 )
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
 from gipkg.reporting.rendering import NEUTRAL, Arrows, Lines, Part, Surface, render
@@ -142,8 +142,7 @@ def explain(start: SphericalMap, unfolded: SphericalMap) -> Explanation:
         Of the same closed genus-0 mesh with V vertices.
     """
     camera = principal_camera(np.asarray(unfolded.mesh.vertices))
-    turned = facing(unfolded, camera).apply(unfolded.sphere)
-    return Explanation(flow(start), SphericalMap(unfolded.mesh, turned), camera)
+    return Explanation(flow(start), turned_as_seen(unfolded, camera), camera)
 
 
 def draw(explanation: Explanation, size: int) -> Figure:

@@ -19,7 +19,7 @@ from gipkg.images.padding import pad
 from gipkg.reporting.cameras import Camera, camera_on, principal_camera
 from gipkg.reporting.colours import CUT, INK, sequential
 from gipkg.reporting.cut_lines import cut_lines
-from gipkg.reporting.figures.appearance import facing, shaded, tip_colours
+from gipkg.reporting.figures.appearance import shaded, tip_colours, turned_as_seen
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
 from gipkg.reporting.rendering import Lines, Surface, render
 from gipkg.reporting.tips import AREA, limb_tips, vertex_areas
@@ -132,8 +132,8 @@ def cut(shape: str, mesh: trimesh.Trimesh, sphere: NDArray[np.float64], size: in
         Pixels along a side of the images.
     """
     camera = principal_camera(np.asarray(mesh.vertices))
-    turn = facing(SphericalMap(mesh, sphere), camera)
-    spherical_map, cuts = SphericalMap(mesh, turn.apply(sphere)), standard_cuts()
+    spherical_map = turned_as_seen(SphericalMap(mesh, sphere), camera)
+    cuts = standard_cuts()
     tips = limb_tips(mesh)
     parts = {
         f"tip {tip + 1}": (int(end), tips.region == tip) for tip, end in enumerate(tips.vertex)
