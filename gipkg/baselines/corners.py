@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gipkg.surfaces.validation import face_areas
-
 if TYPE_CHECKING:
     import trimesh
 
@@ -21,6 +19,8 @@ def about_area_centroid(mesh: trimesh.Trimesh) -> tuple[NDArray[np.float64], NDA
     corners : (F, 3, 3) float64 array
     areas : (F,) float64 array
     """
+    from gipkg.surfaces.validation import face_areas
+
     vertices, faces = np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces)
     # Relative to a vertex, so that a far-away mesh loses no digits.
     vertices = vertices - vertices[faces[0, 0]]
