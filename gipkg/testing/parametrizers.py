@@ -13,8 +13,9 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from gipkg.api import Iteration, Parametrizer
+from gipkg.api import Iteration, Parametrizer, SphericalMap
 from gipkg.errors import UnsupportedMesh
+from gipkg.evaluation.distortion import distortion
 from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
 from gipkg.testing import meshes
 from gipkg.testing.common import add_common_checks
@@ -128,7 +129,8 @@ def keeps_every_face_unflipped(plugin: Parametrizer) -> None:
 def keeps_areas(plugin: Parametrizer) -> None:
     """On an ellipsoid 1:1:4 areas are kept, absolutely and beside the radial projection."""
     mesh = meshes.ellipsoid()
-    ours, theirs = (area_std(map_, mesh) for map_ in (plugin.parametrize(mesh), _radial(mesh)))
+    maps = (SphericalMap(mesh, sphere) for sphere in (plugin.parametrize(mesh), _radial(mesh)))
+    ours, theirs = (distortion(one).face_std for one in maps)
     require(
         ours <= min(AREA_STD, theirs / AREA_GAIN),
         f"std(r - 1) is {ours:.3g}; radially {theirs:.3g}, and {AREA_STD} is allowed",
@@ -201,12 +203,6 @@ def refuses_what_is_not_finite(plugin: Parametrizer) -> None:
     _require_refusal(plugin, meshes.not_finite(), "finite|nan")
 
 
-def area_std(sphere: NDArray[np.float64], mesh: trimesh.Trimesh) -> float:
-    """Return std(r - 1) over faces, r being area on the sphere by area on the mesh."""
-    areas = mesh.area_faces * (4 * np.pi / mesh.area_faces.sum())
-    return float(np.std(signed_spherical_areas(sphere, mesh.faces) / areas))
-
-
 def stretch_ratios(sphere: NDArray[np.float64], mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     """Return the (F,) ratios of the singular values of the map of each face; 1 is conformal."""
     (a, b, c), (p, q, r) = (_metric(points[mesh.faces]) for points in (mesh.vertices, sphere))
@@ -242,7 +238,8 @@ def _require_same_quality(
     sphere = plugin.parametrize(changed)
     if "bijective" in plugin.tags.guarantees:
         _require_bijective("the changed mesh", sphere, changed)
-    before, after = area_std(plugin.parametrize(mesh), mesh), area_std(sphere, changed)
+    maps = SphericalMap(mesh, plugin.parametrize(mesh)), SphericalMap(changed, sphere)
+    before, after = (distortion(one).face_std for one in maps)
     require(
         abs(after - before) <= max(SAME_QUALITY * before, NO_QUALITY),
         f"std(r - 1) changes from {before:.3g} to {after:.3g}",
