@@ -7,6 +7,8 @@ import scipy.sparse as sp
 import trimesh
 from numpy.typing import NDArray
 
+from gipkg.surfaces.areas import at_vertices
+
 MOLLIFICATION = 1e-5
 """Slack that every triangle inequality gets, in units of the mean edge length."""
 
@@ -29,7 +31,7 @@ def edge_lengths(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     return lengths + max(0.0, float(excess.max()) + MOLLIFICATION * float(lengths.mean()))
 
 
-def face_areas(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+def heron_areas(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     """Triangle areas (F,) from edge lengths (F, 3), by Kahan's stable form of Heron's formula."""
     c, b, a = np.sort(lengths, axis=1).T
     return np.sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))) / 4
@@ -55,7 +57,7 @@ def cotangent_laplacian(mesh: trimesh.Trimesh, lengths: NDArray[np.float64]) -> 
     """
     squares = lengths**2
     cotangents = (squares.sum(axis=1, keepdims=True) - 2 * squares) / (
-        4 * face_areas(lengths)[:, None]
+        4 * heron_areas(lengths)[:, None]
     )
     faces = np.asarray(mesh.faces)
     tails, heads = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, 1, axis=1).ravel()
@@ -66,6 +68,4 @@ def cotangent_laplacian(mesh: trimesh.Trimesh, lengths: NDArray[np.float64]) -> 
 
 def barycentric_mass(mesh: trimesh.Trimesh, lengths: NDArray[np.float64]) -> NDArray[np.float64]:
     """Lumped mass matrix's diagonal (V,): a third of the area of the faces around a vertex."""
-    thirds = np.repeat(face_areas(lengths) / 3, 3)
-    corners = np.asarray(mesh.faces).ravel()
-    return np.bincount(corners, thirds, minlength=len(mesh.vertices)).astype(np.float64)
+    return at_vertices(heron_areas(lengths), np.asarray(mesh.faces), len(mesh.vertices))

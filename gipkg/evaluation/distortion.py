@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gipkg.api import SphericalMap
 from gipkg.errors import UnsupportedMesh
 from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
-from gipkg.surfaces.validation import face_areas
+from gipkg.surfaces.areas import at_vertices, face_areas
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,8 @@ def distortion(spherical_map: SphericalMap) -> Distortion:
     on_sphere = signed_spherical_areas(spherical_map.sphere, faces)
     ratio = on_sphere / on_mesh
     mean = np.average(ratio, weights=on_mesh)
-    vertex_ratio = _at_vertices(on_sphere, faces) / _at_vertices(on_mesh, faces)
+    count = int(faces.max()) + 1
+    vertex_ratio = at_vertices(on_sphere, faces, count) / at_vertices(on_mesh, faces, count)
     return Distortion(
         spherical_areas=on_sphere,
         mesh_areas=on_mesh,
@@ -88,10 +89,3 @@ def distortion(spherical_map: SphericalMap) -> Distortion:
         weighted_face_std=float(np.sqrt(np.average((ratio - mean) ** 2, weights=on_mesh))),
         variance=float(np.var(on_sphere - on_mesh)),
     )
-
-
-def _at_vertices(areas: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.float64]:
-    """Share the area of every face among its three corners: (F,) -> (V,)."""
-    shared = np.zeros(faces.max() + 1)
-    np.add.at(shared, faces.ravel(), np.repeat(areas / 3, 3))
-    return shared

@@ -6,6 +6,8 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from gipkg.surfaces.areas import at_vertices, face_areas
+
 ON_THE_FACE = -1e-12
 """Least barycentric weight of a hit; below 0, so that an axis through an edge is no miss."""
 
@@ -16,10 +18,7 @@ def area_centroid(mesh: trimesh.Trimesh) -> tuple[NDArray[np.float64], NDArray[n
     A vertex has a third of each face around it.
     """
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    corners = vertices[faces]
-    edges = corners[:, 1:] - corners[:, :1]
-    thirds = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 6
-    areas = np.bincount(faces.ravel(), np.repeat(thirds, 3), len(vertices)).astype(np.float64)
+    areas = at_vertices(face_areas(vertices, faces), faces, len(vertices))
     return areas @ vertices / areas.sum(), areas
 
 

@@ -48,7 +48,7 @@ class Conformal(Parametrizer):
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.sphere.moebius import centred
         from gipkg.parametrizers.variational.optimal_map import least_distorted_map
-        from gipkg.surfaces.validation import face_areas
+        from gipkg.surfaces.areas import at_vertices, face_areas
 
         sphere = least_distorted_map(
             mesh,
@@ -58,7 +58,7 @@ class Conformal(Parametrizer):
             tolerance=self.tolerance,
             callback=callback,
         )
+        vertices = np.asarray(mesh.vertices, np.float64)
         faces = np.asarray(mesh.faces, np.int64)
-        thirds = face_areas(np.asarray(mesh.vertices, np.float64), faces) / 3
-        masses = np.asarray(np.bincount(faces.ravel(), np.repeat(thirds, 3)), np.float64)
+        masses = at_vertices(face_areas(vertices, faces), faces, len(vertices))
         return centred(sphere, faces, masses)

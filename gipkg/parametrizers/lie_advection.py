@@ -11,7 +11,8 @@ from pydantic import Field
 
 from gipkg.api import Callback, Iteration, Parametrizer, ParametrizerTags
 from gipkg.parametrizers.hierarchy.starts import Start
-from gipkg.surfaces.validation import check_genus_zero, face_areas
+from gipkg.surfaces.areas import face_areas
+from gipkg.surfaces.validation import check_genus_zero
 
 
 class LieAdvection(Parametrizer):

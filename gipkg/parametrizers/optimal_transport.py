@@ -44,15 +44,16 @@ class OptimalTransport(Parametrizer):
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.conformal import Conformal
         from gipkg.parametrizers.transport.transport import transport
-        from gipkg.surfaces.validation import check_genus_zero, face_areas
+        from gipkg.surfaces.areas import at_vertices, face_areas
+        from gipkg.surfaces.validation import check_genus_zero
 
         check_genus_zero(mesh)
         faces = np.asarray(mesh.faces)
-        areas = face_areas(np.asarray(mesh.vertices, np.float64), faces)
-        shares = np.bincount(faces.ravel(), np.repeat(areas / 3, 3))
+        vertices = np.asarray(mesh.vertices, np.float64)
+        areas = at_vertices(face_areas(vertices, faces), faces, len(vertices))
         return transport(
             Conformal.model_validate({}).parametrize(mesh),
-            shares * (4 * np.pi / shares.sum()),
+            areas * (4 * np.pi / areas.sum()),
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,
             callback=callback,

@@ -10,7 +10,7 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import dijkstra
 
-from gipkg.surfaces.validation import face_areas
+from gipkg.surfaces.areas import at_vertices, face_areas
 
 AREA = 0.02
 """Share of the surface's area that counts as one tip."""
@@ -68,8 +68,7 @@ def vertex_areas(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     """Return the share (V,) of each vertex in the area: a third of its faces."""
     faces = np.asarray(mesh.faces)
     areas = face_areas(np.asarray(mesh.vertices), faces)
-    shares = np.repeat(areas / (3 * areas.sum()), 3)
-    return np.bincount(faces.ravel(), shares, len(mesh.vertices)).astype(np.float64)
+    return at_vertices(areas / areas.sum(), faces, len(mesh.vertices))
 
 
 def _edge_graph(mesh: trimesh.Trimesh) -> sp.csr_array:

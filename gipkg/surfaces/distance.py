@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas
 
 SAMPLES = 10_000
 """Random points on each surface, besides its vertices."""

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import halfedges
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.caps import Cap, cap
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas
 
 
 def border_loops(faces: NDArray[np.int64]) -> list[NDArray[np.int64]]:

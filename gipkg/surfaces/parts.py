@@ -8,8 +8,8 @@ from scipy.sparse.csgraph import connected_components
 
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import halfedges
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas
 
 THINNEST = 1e-6
 """Least enclosed volume, over area to the power 3/2 (a sphere: 0.09; a sheet of paper: 1e-4)."""

@@ -17,13 +17,14 @@ from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
 from gipkg.formats.array_faults import array_fault
 from gipkg.formats.reading import load_mesh
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.distance import deviation
 from gipkg.surfaces.repair import repair
 from gipkg.surfaces.report import Report, Step, count
 from gipkg.surfaces.soups import soup_surface
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas, genus_zero_faults
+from gipkg.surfaces.validation import genus_zero_faults
 from gipkg.surfaces.volumes import volume_surface
 
 Share = Annotated[float, Field(ge=0, le=1)]

@@ -7,9 +7,10 @@ from dataclasses import asdict
 
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import cleaning, genus, halfedges, holes, parts, slivers, splitting
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.report import Step
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas, genus_zero_faults
+from gipkg.surfaces.validation import genus_zero_faults
 
 MOST_PAIRS = 100_000
 """Faces at edges of more than two are compared two by two, so often at the most: where there are

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.surfaces import halfedges
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import DEGENERATE, face_areas, repeats_vertex
+from gipkg.surfaces.validation import DEGENERATE, repeats_vertex
 
 SLIVER = 1e-7
 """A face below this share of the mean area is resolved; well above what validation refuses."""

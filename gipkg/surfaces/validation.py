@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gipkg.errors import UnsupportedMesh
 from gipkg.formats.array_faults import array_fault
 from gipkg.surfaces import halfedges
+from gipkg.surfaces.areas import face_areas
 
 DEGENERATE = 1e-12
 """A face at or below this share of the mean face area counts as degenerate."""
@@ -64,13 +65,6 @@ def genus_zero_faults(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -
 def repeats_vertex(faces: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Mark the (F,) faces that name a vertex more than once."""
     return (faces == np.roll(faces, 1, axis=1)).any(axis=1)
-
-
-def face_areas(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the (F,) areas of the faces."""
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    area: NDArray[np.float64] = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    return area
 
 
 def degenerate_faces(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.bool_]:

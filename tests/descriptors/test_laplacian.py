@@ -14,7 +14,7 @@ from gipkg.descriptors.laplacian import (
     barycentric_mass,
     cotangent_laplacian,
     edge_lengths,
-    face_areas,
+    heron_areas,
 )
 
 
@@ -57,7 +57,7 @@ def test_areas_equal_cross_products_at_every_scale(seed: int, exponent: int) -> 
     mesh = trimesh.Trimesh(corners, [[0, 1, 2]], process=False)
     expected = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0])) / 2
     longest = edge_lengths(mesh).max()
-    assert_allclose(face_areas(edge_lengths(mesh)), expected, atol=1e-5 * longest**2, rtol=1e-9)
+    assert_allclose(heron_areas(edge_lengths(mesh)), expected, atol=1e-5 * longest**2, rtol=1e-9)
 
 
 @pytest.mark.parametrize("defect", ["needle", "cap", "collapsed edge", "collapsed face"])

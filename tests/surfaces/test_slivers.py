@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.slivers import SLIVER, Resolved, resolve_slivers
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas
 from tests.surfaces.solids import assert_genus_zero, bare, sphere
 from tests.surfaces.test_steps import triangles
 

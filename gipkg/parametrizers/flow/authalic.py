@@ -9,7 +9,7 @@ from gipkg.parametrizers.flow.linear_elements import LinearElements
 from gipkg.parametrizers.flow.poisson import Poisson
 from gipkg.parametrizers.flow.transfer import carry_all, carry_carefully, destinations
 from gipkg.parametrizers.sphere.areas import signed_spherical_areas
-from gipkg.surfaces.validation import face_areas
+from gipkg.surfaces.areas import at_vertices, face_areas
 
 
 class AreaFlow:
@@ -30,7 +30,7 @@ class AreaFlow:
         scale = np.sqrt(4 * np.pi / face_areas(vertices, faces).sum())
         self.elements = LinearElements(scale * vertices, faces)
         self._poisson = Poisson(self.elements.stiffness(), rank)
-        self._areas = self.elements.at_vertices(self.elements.areas)
+        self._areas = at_vertices(self.elements.areas, faces, len(vertices))
         self._fans = np.argsort(faces.ravel(), kind="stable")
         self._fan_starts = np.searchsorted(faces.ravel()[self._fans], np.arange(len(vertices) + 1))
 
@@ -58,8 +58,8 @@ class AreaFlow:
             Share of the vertices that moved.
         """
         elements = self.elements
-        areas = elements.at_vertices(signed_spherical_areas(sphere, elements.faces))
-        excess = areas - self._areas
+        on_sphere = signed_spherical_areas(sphere, elements.faces)
+        excess = at_vertices(on_sphere, elements.faces, elements.count) - self._areas
         potential = self._poisson.solve(excess if integrated else excess / self._areas)
         corners, rates = destinations(
             elements.faces, elements.hats, elements.vertex_gradients(potential)

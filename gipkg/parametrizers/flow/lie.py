@@ -9,6 +9,7 @@ from gipkg.parametrizers.flow.advection import advect
 from gipkg.parametrizers.flow.linear_elements import LinearElements
 from gipkg.parametrizers.flow.poisson import Poisson
 from gipkg.parametrizers.sphere.areas import signed_spherical_areas
+from gipkg.surfaces.areas import at_vertices
 from gipkg.surfaces.halfedges import twins
 
 
@@ -41,8 +42,8 @@ class LieFlow:
         areas: NDArray[np.float64],
     ) -> None:
         elements = LinearElements(sphere, faces)
-        on_sphere = elements.at_vertices(signed_spherical_areas(sphere, faces))
-        on_mesh = elements.at_vertices(areas)
+        on_sphere = at_vertices(signed_spherical_areas(sphere, faces), faces, len(sphere))
+        on_mesh = at_vertices(areas, faces, len(sphere))
         # The stiffness matrix is that of -Δ, and its right-hand side an integral.
         potential = Poisson(elements.stiffness()).solve(on_sphere - on_mesh)
         fluxes = elements.vertex_gradients(potential)

@@ -60,11 +60,6 @@ class LinearElements:
         """
         return _vertex_gradients(self.faces, self.hats, self.angles, values)
 
-    def at_vertices(self, quantities: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Share what every face holds (F,) among its three corners equally: (V,)."""
-        shares = np.repeat(quantities / 3, 3)
-        return np.bincount(self.faces.ravel(), shares, minlength=self.count).astype(np.float64)
-
 
 @compiled
 def _vertex_gradients(faces, hats, angles, values):  # type: ignore[no-untyped-def]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gipkg.parametrizers.hierarchy.embedding import embed
 from gipkg.parametrizers.sphere.bijectivity import require_bijective
-from gipkg.surfaces.validation import face_areas
+from gipkg.surfaces.areas import face_areas
 
 Start = Literal["hierarchy", "uniform", "squeezed", "conformal"]
 

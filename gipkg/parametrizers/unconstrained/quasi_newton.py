@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gipkg.api import Callback, Iteration
 from gipkg.cholesky import Cholesky
 from gipkg.parametrizers.unconstrained.energy import ProjectedEnergy
+from gipkg.surfaces.areas import at_vertices
 
 _MEMORY = 8
 """Pairs of steps and changes of the gradient that are remembered."""
@@ -138,8 +139,8 @@ def laplacian_preconditioner(
     count = int(faces.max()) + 1
     i, j = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, -2, axis=1).ravel()
     weight = cotangents.ravel() / 2
-    diagonal = np.bincount(i, weight, count) + np.bincount(j, weight, count)
-    diagonal += np.bincount(faces.ravel(), np.repeat(areas / 3, 3), count)
+    diagonal = at_vertices(areas, faces, count)
+    diagonal += np.bincount(i, weight, count) + np.bincount(j, weight, count)
     every = np.arange(count)
     system = sp.csr_array(
         (

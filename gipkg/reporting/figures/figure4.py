@@ -28,6 +28,7 @@ from gipkg.reporting.figures.appearance import (
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
 from gipkg.reporting.rendering import NEUTRAL, Arrows, Lines, Part, Surface, render
 from gipkg.reporting.tips import limb_tips
+from gipkg.surfaces.areas import at_vertices
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -73,8 +74,8 @@ def flow(start: SphericalMap) -> Flow:
     faces = np.asarray(start.mesh.faces, dtype=np.int64)
     vertices = np.asarray(start.mesh.vertices, dtype=np.float64)
     elements = LinearElements(vertices * np.sqrt(4 * np.pi / start.mesh.area), faces)
-    on_sphere = elements.at_vertices(signed_spherical_areas(start.sphere, faces))
-    on_mesh = elements.at_vertices(elements.areas)
+    on_sphere = at_vertices(signed_spherical_areas(start.sphere, faces), faces, len(vertices))
+    on_mesh = at_vertices(elements.areas, faces, len(vertices))
     potential = Poisson(elements.stiffness()).solve(on_sphere - on_mesh)
     return Flow(on_sphere / on_mesh - 1, potential, elements.vertex_gradients(potential))
 

@@ -16,6 +16,7 @@ from gipkg.api import SphericalMap
 from gipkg.evaluation.distortion import Distortion, distortion
 from gipkg.reporting.cameras import principal_camera
 from gipkg.reporting.figures.appearance import as_seen, facing
+from gipkg.surfaces.areas import at_vertices
 
 RATIO = "area ratio (log2)"
 """The channel that every map has of its own."""
@@ -87,7 +88,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
 def _vertex_ratio(measured: Distortion, faces: NDArray[np.integer]) -> NDArray[np.float64]:
     """Return log2 of sphere over mesh area (V,) of what is around each vertex, cut off at ±4."""
     on_sphere, on_mesh = (
-        np.bincount(faces.ravel(), np.repeat(areas, 3))
+        at_vertices(areas, faces, int(faces.max()) + 1)
         for areas in (measured.spherical_areas, measured.mesh_areas)
     )
     return np.log2((on_sphere / on_mesh).clip(2.0**-4, 2.0**4))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gipkg.compilation import compiled
+from gipkg.surfaces.areas import at_vertices, face_areas
 from gipkg.surfaces.edge_collapse import collapse, following, gather_ring
 from gipkg.surfaces.halfedges import twins
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.validation import face_areas
 from gipkg.surfaces.volumes.quadrics import best_point, vertex_quadrics
 
 BATCH = 0.25
@@ -42,8 +42,7 @@ def decimate(mesh: Triangles, size: int) -> Triangles:
         return mesh
     centre = mesh.vertices.mean(axis=0)
     points, faces = mesh.vertices - centre, mesh.faces
-    shares = np.repeat(face_areas(points, faces) / 3, 3)
-    areas = np.bincount(faces.ravel(), shares).astype(np.float64)
+    areas = at_vertices(face_areas(points, faces), faces, len(points))
     original = areas * mesh.original
     quadrics = vertex_quadrics(points, faces, areas)
     twin, origin = twins(faces), faces.ravel().copy()
