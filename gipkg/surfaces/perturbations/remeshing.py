@@ -8,8 +8,8 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from gipkg.surfaces.decimation import decimate
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.volumes.decimation import decimate
 
 NEAREST = 0.3
 """An edge is split between this share of its length and the other end's."""

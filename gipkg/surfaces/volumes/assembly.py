@@ -11,11 +11,11 @@ from scipy import ndimage
 
 from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
+from gipkg.surfaces.decimation import decimate
 from gipkg.surfaces.report import Report, Step, VolumeCounts, count
 from gipkg.surfaces.surface import Surface
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.validation import genus_zero_faults
-from gipkg.surfaces.volumes.decimation import decimate
 from gipkg.surfaces.volumes.fairing import fair
 from gipkg.surfaces.volumes.lattice import Solid
 from gipkg.surfaces.volumes.shrinking import contractible_hull

@@ -13,13 +13,11 @@ from hypothesis import strategies as st
 from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import Surface, prepare, volume_surface
-from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.volumes import assembly
-from gipkg.surfaces.volumes.decimation import decimate
 from gipkg.surfaces.volumes.fairing import fair
 from gipkg.surfaces.volumes.tetrahedra import lattice_surface
 from gipkg.surfaces.volumes.topology import count_topology
-from tests.surfaces.solids import assert_genus_zero, chain_of_tori, sphere, torus
+from tests.surfaces.solids import assert_genus_zero, sphere
 from tests.surfaces.volumes.solids import ball, blobs, grid, ring
 
 CENTRE = 19.5
@@ -211,42 +209,6 @@ def test_fairing_keeps_the_size_of_a_sphere_and_takes_noise_away():
     radius = np.linalg.norm(smooth, axis=1)
     assert radius.mean() == pytest.approx(1, abs=0.005)
     assert radius.std() < 0.4 * noise.std()
-
-
-@pytest.mark.parametrize(("mesh", "euler"), [(sphere(4), 2), (torus(), 0), (chain_of_tori(3), -4)])
-def test_decimation_keeps_the_topology_to_the_last(mesh, euler):
-    triangles = Triangles(mesh.vertices, np.asarray(mesh.faces), np.ones(len(mesh.vertices), bool))
-    for size in (200, 40):
-        fewer = decimate(triangles, size)
-        found = trimesh.Trimesh(fewer.vertices, fewer.faces, process=False)
-        assert len(fewer.vertices) == size
-        assert found.is_watertight
-        assert found.is_winding_consistent
-        assert found.euler_number == euler
-    coarse = decimate(triangles, 200)
-    volume = trimesh.Trimesh(coarse.vertices, coarse.faces, process=False).volume
-    assert volume == pytest.approx(mesh.volume, rel=0.2)
-
-
-@pytest.mark.parametrize(("mesh", "least"), [(sphere(3), 4), (torus(), 7)])
-def test_decimation_ends_where_no_edge_can_collapse(mesh, least):
-    triangles = Triangles(mesh.vertices, np.asarray(mesh.faces), np.ones(len(mesh.vertices), bool))
-    fewer = decimate(triangles, 4)
-    found = trimesh.Trimesh(fewer.vertices, fewer.faces, process=False)
-    assert found.euler_number == mesh.euler_number
-    assert found.is_watertight
-    assert least <= len(fewer.vertices) <= 2 * least - 4
-
-
-def test_decimation_stays_on_the_surface_and_keeps_triangles_regular():
-    mesh = sphere(5)
-    fewer = decimate(Triangles(mesh.vertices, np.asarray(mesh.faces), mesh.vertices[:, 2] > 0), 500)
-    found = trimesh.Trimesh(fewer.vertices, fewer.faces, process=False)
-    assert np.abs(np.linalg.norm(fewer.vertices, axis=1) - 1).max() < 0.01
-    sides = found.triangles - np.roll(found.triangles, 1, axis=1)
-    quality = 4 * np.sqrt(3) * found.area_faces / (sides**2).sum(axis=(1, 2))
-    assert quality.min() > 0.4
-    assert (fewer.original == (fewer.vertices[:, 2] > 0))[np.abs(fewer.vertices[:, 2]) > 0.1].all()
 
 
 def test_too_many_voxels_are_refused(monkeypatch):

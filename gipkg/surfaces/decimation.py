@@ -8,8 +8,8 @@ from gipkg.compilation import compiled
 from gipkg.surfaces.areas import at_vertices, face_areas
 from gipkg.surfaces.edge_collapse import collapse, following, gather_ring
 from gipkg.surfaces.halfedges import twins
+from gipkg.surfaces.quadrics import best_point, vertex_quadrics
 from gipkg.surfaces.triangles import Triangles
-from gipkg.surfaces.volumes.quadrics import best_point, vertex_quadrics
 
 BATCH = 0.25
 """Share of the edges, the cheapest, that may collapse before costs are computed anew."""
