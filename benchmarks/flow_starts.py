@@ -20,7 +20,7 @@ import trimesh
 
 import gipkg
 from gipkg import registry
-from gipkg.parametrizers.hierarchy.starts import Start, start_map
+from gipkg.parametrizers.flow.starts import Start, start_map
 
 PRINTED = {"step": 0.01, "right_hand_side": "ratio", "guard": False}
 """The paper's step and right-hand side, with nothing to hold the vertices."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from gipkg.api import Callback, Iteration, Parametrizer, ParametrizerTags
-from gipkg.parametrizers.hierarchy.starts import Start
+from gipkg.parametrizers.flow.starts import Start, start_map
 from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.validation import check_genus_zero
 
@@ -43,7 +43,6 @@ class LieAdvection(Parametrizer):
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.flow.lie import LieFlow
-        from gipkg.parametrizers.hierarchy.starts import start_map
         from gipkg.parametrizers.sphere.areas import mean_square_distortion
 
         check_genus_zero(mesh)

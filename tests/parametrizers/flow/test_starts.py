@@ -7,7 +7,7 @@ import pytest
 
 from gipkg.api import SphericalMap
 from gipkg.evaluation.distortion import distortion
-from gipkg.parametrizers.hierarchy.starts import Start, start_map
+from gipkg.parametrizers.flow.starts import Start, start_map
 from tests.support.shapes import needle, urchin
 
 MESHES = {"urchin": urchin(12, 3.0, 3), "needle": needle()}
