@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.variational.area_residual import area_residual
+from gipkg.parametrizers.sphere.area_residual import area_residual
 
 _EQUILATERAL = 1 / (2 * np.sqrt(3.0))
 """Squared edge lengths -> twice the Dirichlet energy of the map from an equilateral triangle."""

@@ -1,1 +1,1 @@
-"""Geometry of maps to the unit sphere: areas, orientation, tangent planes."""
+"""Geometry of maps to the unit sphere: areas and their residuals, orientation, tangent planes."""

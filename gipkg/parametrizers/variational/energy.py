@@ -2,7 +2,7 @@
 
 Every face f contributes ``W (ρ(a / A) + μ)² + shape * A (2 D / det - 1)``: `a` is its signed
 spherical area, `A` the area that it should have, `ρ` the
-:func:`~gipkg.parametrizers.variational.area_residual.area_residual`, `μ` a shift that is 0 but
+:func:`~gipkg.parametrizers.sphere.area_residual.area_residual`, `μ` a shift that is 0 but
 where :mod:`~gipkg.parametrizers.variational.unjamming` pushes a face on, `D` the Dirichlet energy
 of its map from the mesh to the flat triangle of its corners and ``det`` their triple product. The
 flat triangle lies at distance h <= 1 from the centre and has the area ``det / 2h <= D``, so that
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
-from gipkg.parametrizers.variational.area_residual import area_residual
+from gipkg.parametrizers.sphere.area_residual import area_residual
 
 _FULL_TURN = 1e-6
 """Allowed round-off of the total area; the next degree is 4π away."""

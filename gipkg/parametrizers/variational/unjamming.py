@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
+from gipkg.parametrizers.sphere.area_residual import area_residual
 from gipkg.parametrizers.sphere.areas import signed_spherical_areas
-from gipkg.parametrizers.variational.area_residual import area_residual
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.newton import Descent
 

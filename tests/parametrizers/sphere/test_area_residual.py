@@ -3,7 +3,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from gipkg.parametrizers.variational.area_residual import area_residual
+from gipkg.parametrizers.sphere.area_residual import area_residual
 
 RATIOS = st.floats(-12, 12).map(np.exp)
 
