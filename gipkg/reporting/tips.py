@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 import trimesh
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from gipkg.surfaces.areas import at_vertices, face_areas
+from gipkg.surfaces.edge_graph import edge_graph
 
 AREA = 0.02
 """Share of the surface's area that counts as one tip."""
@@ -51,7 +52,8 @@ def limb_tips(mesh: trimesh.Trimesh, area: float = AREA) -> Tips:
     area : float
         Share of the surface's area that one region has, up to one vertex.
     """
-    graph, areas = _edge_graph(mesh), vertex_areas(mesh)
+    graph = edge_graph(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    areas = vertex_areas(mesh)
     outward = dijkstra(graph, indices=_middle(graph))
     reach = _REACH * outward.max()
     highest = np.maximum.reduceat(outward[graph.indices], graph.indptr[:-1])
@@ -71,15 +73,7 @@ def vertex_areas(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     return at_vertices(areas / areas.sum(), faces, len(mesh.vertices))
 
 
-def _edge_graph(mesh: trimesh.Trimesh) -> sp.csr_array:
-    edges = np.asarray(mesh.edges_unique)
-    lengths = np.asarray(mesh.edges_unique_length)
-    count = len(mesh.vertices)
-    half = sp.coo_array((lengths, (edges[:, 0], edges[:, 1])), shape=(count, count))
-    return (half + half.T).tocsr()
-
-
-def _middle(graph: sp.csr_array) -> int:
+def _middle(graph: csr_array) -> int:
     """Return the vertex halfway between ends, by its greatest distance to three far points."""
     far = [0]
     distances = []

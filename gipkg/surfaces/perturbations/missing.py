@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import dijkstra
 
 from gipkg.surfaces.areas import face_areas
-from gipkg.surfaces.perturbations.graph import edge_graph
+from gipkg.surfaces.edge_graph import edge_graph
 
 HOLES = 8
 """Small holes in a surface, of equal areas."""

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.distance import cdist
 
-from gipkg.surfaces.perturbations.graph import edge_graph
+from gipkg.surfaces.edge_graph import edge_graph
 
 TRIED = 64
 """Random vertices among which the one is chosen whose way to another is shortened most."""
