@@ -45,13 +45,15 @@ class Penalty(Parametrizer):
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
         from gipkg.parametrizers.hierarchy.embedding import embed
         from gipkg.parametrizers.unconstrained import energy, quasi_newton
-        from gipkg.parametrizers.variational.optimal_map import triangle_shapes
+        from gipkg.surfaces.angles import corner_cotangents
+        from gipkg.surfaces.areas import face_areas
         from gipkg.surfaces.validation import check_genus_zero
 
         check_genus_zero(mesh)
         vertices = np.asarray(mesh.vertices, np.float64)
         faces = np.asarray(mesh.faces, np.int64)
-        areas, cotangents = triangle_shapes(vertices, faces)
+        cotangents = corner_cotangents(vertices, faces)
+        areas = face_areas(vertices, faces)
         areas *= 4 * np.pi / areas.sum()
         # Angles are clamped to [1°, 89°], as the authors do: negative weights fold faces over.
         cotangents = cotangents.clip(*(1 / np.tan(np.radians((89, 1)))))

@@ -57,13 +57,15 @@ class Spharm(Parametrizer):
         from gipkg.parametrizers.cald.stars import Stars
         from gipkg.parametrizers.hierarchy.embedding import embed
         from gipkg.parametrizers.sphere.areas import mean_square_distortion
-        from gipkg.parametrizers.variational.optimal_map import triangle_shapes
+        from gipkg.surfaces.angles import corner_cotangents
+        from gipkg.surfaces.areas import face_areas
         from gipkg.surfaces.validation import check_genus_zero
 
         check_genus_zero(mesh)
         vertices = np.asarray(mesh.vertices, np.float64)
         faces = np.asarray(mesh.faces, np.int64)
-        areas, cotangents = triangle_shapes(vertices, faces)
+        cotangents = corner_cotangents(vertices, faces)
+        areas = face_areas(vertices, faces)
         areas *= 4 * np.pi / areas.sum()
         stars = Stars.of(faces)
         # A tetrahedron has no two vertices that could be poles.

@@ -17,6 +17,8 @@ from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.parametrizers.variational.unjamming import unjam
+from gipkg.surfaces.angles import corner_cotangents
+from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.validation import check_genus_zero
 
 _SHAPE_PATH = (1.0, 0.1)
@@ -79,7 +81,7 @@ def least_distorted_map(
         np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
     )
     vertices = np.asarray(mesh.vertices, np.float64)[order]
-    areas, cotangents = triangle_shapes(vertices, faces)
+    areas, cotangents = face_areas(vertices, faces), corner_cotangents(vertices, faces)
     energy = _energy(faces, areas, cotangents, area_weight, shape_weight)
     # More threads would add up the blocks of a factorization in another order.
     with threadpool_limits(limits=1):
@@ -94,17 +96,6 @@ def least_distorted_map(
             sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)
     require_bijective(sphere, faces, _WAY_OUT)
     return _restored(sphere, order)
-
-
-def triangle_shapes(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Areas (F,) and cotangents of the corners' angles (F, 3)."""
-    corners = vertices[faces]
-    to_next = np.roll(corners, -1, axis=1) - corners
-    to_previous = np.roll(corners, 1, axis=1) - corners
-    doubled = np.linalg.norm(np.cross(to_next, to_previous), axis=2)
-    return doubled[:, 0] / 2, np.einsum("fkc,fkc->fk", to_next, to_previous) / doubled
 
 
 def _energy(

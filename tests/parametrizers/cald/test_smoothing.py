@@ -12,7 +12,8 @@ from gipkg.parametrizers.sphere.areas import (
     mean_square_distortion,
     signed_spherical_areas,
 )
-from gipkg.parametrizers.variational.optimal_map import triangle_shapes
+from gipkg.surfaces.angles import corner_cotangents
+from gipkg.surfaces.areas import face_areas
 from tests.support.shapes import icosphere, urchin
 
 
@@ -20,12 +21,13 @@ def _surface(subdivisions: int = 3):
     """Return vertices, faces, areas to 4π, cotangents and stars of the unit sphere."""
     mesh = icosphere(subdivisions)
     faces = np.asarray(mesh.faces, np.int64)
-    areas, cotangents = triangle_shapes(np.asarray(mesh.vertices), faces)
+    vertices = np.array(mesh.vertices)
+    areas = face_areas(vertices, faces)
     return (
-        np.array(mesh.vertices),
+        vertices,
         faces,
         areas * 4 * np.pi / areas.sum(),
-        cotangents,
+        corner_cotangents(vertices, faces),
         Stars.of(faces),
     )
 
@@ -74,7 +76,7 @@ def test_local_smoothing_does_not_change_lengths_beyond_the_limit() -> None:
     mesh = urchin(6, 1.0, 3)
     faces = np.asarray(mesh.faces, np.int64)
     vertices = mesh.vertices * np.sqrt(4 * np.pi / mesh.area)
-    areas, cotangents = triangle_shapes(vertices, faces)
+    areas, cotangents = face_areas(vertices, faces), corner_cotangents(vertices, faces)
     stars = Stars.of(faces)
     start = diffuse(vertices, stars)
     smooth_locally(start, stars, areas, cotangents, 1.0, 50)

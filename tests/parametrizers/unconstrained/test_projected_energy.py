@@ -5,14 +5,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gipkg.parametrizers.unconstrained.energy import ProjectedEnergy
-from gipkg.parametrizers.variational.optimal_map import triangle_shapes
+from gipkg.surfaces.angles import corner_cotangents
+from gipkg.surfaces.areas import face_areas
 from tests.support.shapes import ellipsoid, icosphere
 
 
 def _energy(mesh: trimesh.Trimesh, area_weight: float) -> ProjectedEnergy:
-    areas, cotangents = triangle_shapes(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    areas = face_areas(vertices, faces)
     areas *= 4 * np.pi / areas.sum()
-    return ProjectedEnergy(np.asarray(mesh.faces), cotangents, areas, area_weight)
+    return ProjectedEnergy(faces, corner_cotangents(vertices, faces), areas, area_weight)
 
 
 def _perturbed(seed: int, noise: float = 0.1) -> np.ndarray:

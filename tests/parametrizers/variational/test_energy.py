@@ -2,17 +2,17 @@ import numpy as np
 import pytest
 
 from gipkg.parametrizers.variational.energy import MapEnergy
-from gipkg.parametrizers.variational.optimal_map import triangle_shapes
+from gipkg.surfaces.angles import corner_cotangents
+from gipkg.surfaces.areas import face_areas
 from tests.support.shapes import ellipsoid, icosphere
 
 
 def _energy(mesh, shape: float) -> MapEnergy:
-    areas, cotangents = triangle_shapes(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    areas, cotangents = face_areas(vertices, faces), corner_cotangents(vertices, faces)
     targets = areas * 4 * np.pi / areas.sum()
     weights = np.sqrt(targets * targets.mean())
-    return MapEnergy(
-        np.asarray(mesh.faces), targets, weights, cotangents, shape, np.zeros(len(targets))
-    )
+    return MapEnergy(faces, targets, weights, cotangents, shape, np.zeros(len(targets)))
 
 
 def _perturbed(seed: int) -> tuple[np.ndarray, np.ndarray]:

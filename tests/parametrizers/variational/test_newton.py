@@ -7,8 +7,9 @@ from gipkg.parametrizers.hierarchy.embedding import embed
 from gipkg.parametrizers.sphere.areas import flipped_faces
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.newton import Descent
-from gipkg.parametrizers.variational.optimal_map import triangle_shapes
 from gipkg.parametrizers.variational.unjamming import unjam
+from gipkg.surfaces.angles import corner_cotangents
+from gipkg.surfaces.areas import face_areas
 from tests.support.shapes import urchin
 
 
@@ -16,7 +17,7 @@ from tests.support.shapes import urchin
 def problem() -> tuple[MapEnergy, np.ndarray]:
     mesh = urchin(12, 6.0)
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces, np.int64)
-    areas, cotangents = triangle_shapes(vertices, faces)
+    areas, cotangents = face_areas(vertices, faces), corner_cotangents(vertices, faces)
     targets = areas * 4 * np.pi / areas.sum()
     weights = np.full(len(faces), targets.mean())
     energy = MapEnergy(faces, targets, weights, cotangents, 1e-2, np.zeros(len(faces)))
