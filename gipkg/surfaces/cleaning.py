@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from gipkg.surfaces import halfedges
@@ -34,8 +32,7 @@ def merge_border_vertices(mesh: Triangles, tolerance: float) -> tuple[Triangles,
     points = mesh.vertices[border]
     radius = tolerance * float(np.linalg.norm(np.ptp(mesh.vertices, axis=0)))
     near = cKDTree(points).query_pairs(radius, output_type="ndarray")
-    graph = coo_array((np.ones(len(near), bool), near.T), shape=(len(border), len(border)))
-    count, group = connected_components(graph, directed=False)
+    count, group = halfedges.label_connected(len(border), *near.T)
     _, first = np.unique(group, return_index=True)
     number = np.arange(len(mesh.vertices))
     number[border] = border[first[group]]

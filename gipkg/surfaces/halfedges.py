@@ -108,16 +108,17 @@ def fans(faces: Ints, pairs: Ints) -> tuple[int, Ints]:
     agree = origin[one] != origin[two]
     rows = np.concatenate((one, one_end))
     columns = np.concatenate((np.where(agree, two_end, two), np.where(agree, two, two_end)))
-    return _components(3 * len(faces), rows, columns)
+    return label_connected(3 * len(faces), rows, columns)
 
 
 def components(faces: Ints, pairs: Ints) -> tuple[int, Ints]:
     """Count and label the parts of a surface joined across `pairs`: a number and (F,) ints."""
     one, two = pairs.T
-    return _components(len(faces), one // 3, two // 3)
+    return label_connected(len(faces), one // 3, two // 3)
 
 
-def _components(size: int, rows: Ints, columns: Ints) -> tuple[int, Ints]:
-    graph = coo_array((np.ones(len(rows), bool), (rows, columns)), shape=(size, size))
+def label_connected(size: int, one: Ints, two: Ints) -> tuple[int, Ints]:
+    """Count and label the connected sets of `size` things, `one` (P,) joined to `two` (P,)."""
+    graph = coo_array((np.ones(len(one), bool), (one, two)), shape=(size, size))
     count, label = connected_components(graph, directed=False)
     return int(count), label

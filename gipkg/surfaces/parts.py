@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import halfedges
@@ -55,8 +53,7 @@ def orient_consistently(mesh: Triangles) -> tuple[Triangles, int]:
     opposed = (origin[one] == origin[two]) * size
     rows = np.concatenate((one // 3, one // 3 + size))
     columns = np.concatenate((two // 3 + opposed, two // 3 + size - opposed))
-    graph = coo_array((np.ones(len(rows), bool), (rows, columns)), shape=(2 * size, 2 * size))
-    _, label = connected_components(graph, directed=False)
+    _, label = halfedges.label_connected(2 * size, rows, columns)
     kept, turned = label[:size], label[size:]
     if (kept == turned).any():
         raise UnsupportedMesh(

@@ -7,8 +7,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from gipkg.surfaces import halfedges
 from gipkg.surfaces.distance import Deviation
@@ -114,5 +112,4 @@ def _connected(origin: NDArray[np.int64], target: NDArray[np.int64]) -> int:
     """Count the connected pieces of a set of edges."""
     names, number = np.unique(np.concatenate((origin, target)), return_inverse=True)
     one, two = number.reshape(2, -1)
-    graph = coo_array((np.ones(len(one), bool), (one, two)), shape=(len(names), len(names)))
-    return int(connected_components(graph, directed=False)[0])
+    return halfedges.label_connected(len(names), one, two)[0]
