@@ -67,6 +67,18 @@ def orient_consistently(mesh: Triangles) -> tuple[Triangles, int]:
     return mesh.with_faces(np.where(turn[:, None], faces[:, ::-1], faces)), int(turn.sum())
 
 
+def require_area(mesh: Triangles) -> None:
+    """Accept a mesh of which at least one face has an area.
+
+    Raises
+    ------
+    UnsupportedMesh
+        None has.
+    """
+    if not face_areas(mesh.vertices, mesh.faces).any():
+        raise UnsupportedMesh("its faces have no area at all. Export it again from its source")
+
+
 def require_volume(mesh: Triangles, least: float) -> None:
     """Accept a closed surface that bounds a solid.
 

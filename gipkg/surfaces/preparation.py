@@ -17,8 +17,8 @@ from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
 from gipkg.formats.array_faults import array_fault
 from gipkg.formats.reading import load_mesh
-from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.distance import deviation
+from gipkg.surfaces.parts import require_area
 from gipkg.surfaces.repair import repair
 from gipkg.surfaces.report import Report, Step, count
 from gipkg.surfaces.soups import soup_surface
@@ -176,9 +176,9 @@ def _triangles(mesh: trimesh.Trimesh) -> Triangles:
             f"its size is {side:.3g}, but it lies {np.abs(used).max():.3g} away from the origin, "
             "where numbers are too coarse for its shape. Move it to the origin at its source"
         )
-    if not face_areas(points, faces).any():
-        raise UnsupportedMesh("its faces have no area at all. Export it again from its source")
-    return Triangles(points, faces, np.ones(len(points), bool))
+    triangles = Triangles(points, faces, np.ones(len(points), bool))
+    require_area(triangles)
+    return triangles
 
 
 def _repaired(given: Triangles, result: Triangles, steps: tuple[Step, ...], name: str) -> Surface:

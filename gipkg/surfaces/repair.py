@@ -7,7 +7,6 @@ from dataclasses import asdict
 
 from gipkg.errors import UnsupportedMesh
 from gipkg.surfaces import cleaning, genus, halfedges, holes, parts, slivers, splitting
-from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.report import Step
 from gipkg.surfaces.triangles import Triangles
 from gipkg.surfaces.validation import genus_zero_faults
@@ -84,8 +83,7 @@ class _Pipeline:
 
     def take_largest_part(self, smallest_part: float) -> None:
         """Keep the part of the largest area."""
-        if not face_areas(self.mesh.vertices, self.mesh.faces).any():
-            raise UnsupportedMesh("its faces have no area at all. Export it again from its source")
+        parts.require_area(self.mesh)
         mesh, dropped, share = parts.largest_part(self.mesh)
         if share < smallest_part:
             raise UnsupportedMesh(
