@@ -13,7 +13,6 @@ from gipkg.surfaces.triangles import Triangles
 SAMPLES = 10_000
 """Random points on each surface, besides its vertices."""
 
-
 FAR = 0.02
 """Distance, in diagonals, from which on what was given counts as missing."""
 

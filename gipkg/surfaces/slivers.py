@@ -123,14 +123,15 @@ def _nudge(mesh: Triangles) -> tuple[Triangles, int]:
     count = 0
     for scale in NUDGES:
         area = face_areas(mesh.vertices, mesh.faces)
-        flat = np.unique(mesh.faces[area <= 2 * DEGENERATE * area.mean()])
-        if not len(flat):
+        flat = area <= 2 * DEGENERATE * area.mean()
+        if not flat.any():
             break
-        count = max(count, int(np.count_nonzero(area <= 2 * DEGENERATE * area.mean())))
+        count = max(count, int(np.count_nonzero(flat)))
+        corners = np.unique(mesh.faces[flat])
         origin, target = halfedges.endpoints(mesh.faces)
         edge = np.linalg.norm(mesh.vertices[target] - mesh.vertices[origin], axis=1).mean()
-        direction = random.standard_normal((len(flat), 3))
+        direction = random.standard_normal((len(corners), 3))
         vertices = mesh.vertices.copy()
-        vertices[flat] += scale * edge * direction
+        vertices[corners] += scale * edge * direction
         mesh = replace(mesh, vertices=vertices)
     return mesh, count

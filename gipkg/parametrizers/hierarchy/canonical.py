@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
 from gipkg.surfaces.edge_collapse import following, preceding
-from gipkg.surfaces.halfedges import twins
+from gipkg.surfaces.halfedges import endpoints, twins
 
 
 def canonical_order(
@@ -36,10 +36,9 @@ def canonical_order(
     renumbered : (F, 3) int64 array
         The faces in canonical order; entry i stands for vertex ``order[i]``.
     """
-    origin = faces.ravel()
+    origin, target = endpoints(faces)
     twin = twins(faces)
-    ends = np.roll(faces, -1, axis=1).ravel()
-    lengths = np.linalg.norm(vertices[ends] - vertices[origin], axis=1)
+    lengths = np.linalg.norm(vertices[target] - vertices[origin], axis=1)
     # Both half-edges of an edge get the same bits, and the scale of the mesh plays no part.
     lengths = np.minimum(lengths, lengths[twin])
     rounded = (lengths / lengths.mean()).astype(np.float32)
