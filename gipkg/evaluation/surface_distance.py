@@ -54,15 +54,10 @@ def surface_distance(
     SurfaceDistance
     """
     rng = np.random.default_rng(seed)
-    one, two = _triangles(mesh), _triangles(other)
+    one, two = Triangles.of(mesh), Triangles.of(other)
     ways = [sampled_distances(*pair, samples, rng) for pair in ((one, two), (two, one))]
     diagonal = np.linalg.norm(np.ptp(mesh.vertices, axis=0))
     return SurfaceDistance(
         hausdorff=float(max(way.max() for way in ways) / diagonal),
         mean=float(np.mean([way[:samples].mean() for way in ways]) / diagonal),
     )
-
-
-def _triangles(mesh: trimesh.Trimesh) -> Triangles:
-    vertices = np.asarray(mesh.vertices, np.float64)
-    return Triangles(vertices, np.asarray(mesh.faces, np.int64), np.ones(len(vertices), bool))

@@ -14,6 +14,8 @@ from gipkg.evaluation.surface_distance import surface_distance
 from gipkg.images.lookup import PixelLookup
 from gipkg.parametrizers.sphere.areas import flipped_faces
 from gipkg.reporting.tips import Tips
+from gipkg.surfaces.distance import distances
+from gipkg.surfaces.triangles import Triangles
 
 WHOLE = "whole"
 """Name of the part that is the whole surface."""
@@ -118,10 +120,5 @@ def measure(
 
 def _distances(mesh: trimesh.Trimesh, other: trimesh.Trimesh) -> NDArray[np.float64]:
     """Distance (V,) of each vertex to another surface, by the bounding box's diagonal."""
-    import igl
-
     vertices = np.asarray(mesh.vertices, dtype=np.float64)
-    squared, _, _ = igl.point_mesh_squared_distance(
-        vertices, np.asarray(other.vertices), np.asarray(other.faces, dtype=np.int64)
-    )
-    return np.sqrt(squared) / np.linalg.norm(np.ptp(vertices, axis=0))
+    return distances(vertices, Triangles.of(other)) / np.linalg.norm(np.ptp(vertices, axis=0))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import trimesh
 from numpy.typing import NDArray
 
 
@@ -23,6 +24,12 @@ class Triangles:
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]
     original: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, mesh: trimesh.Trimesh) -> Triangles:
+        """Take over a mesh, all of it original."""
+        vertices = np.asarray(mesh.vertices, np.float64)
+        return cls(vertices, np.asarray(mesh.faces, np.int64), np.ones(len(vertices), bool))
 
     def with_faces(self, faces: NDArray[np.int64]) -> Triangles:
         """Return the same vertices under other faces."""

@@ -13,7 +13,7 @@ from tests.surfaces.solids import chain_of_tori, sphere, torus
 
 @pytest.mark.parametrize(("mesh", "euler"), [(sphere(4), 2), (torus(), 0), (chain_of_tori(3), -4)])
 def test_the_topology_is_kept_to_the_last(mesh, euler):
-    triangles = Triangles(mesh.vertices, np.asarray(mesh.faces), np.ones(len(mesh.vertices), bool))
+    triangles = Triangles.of(mesh)
     for size in (200, 40):
         fewer = decimate(triangles, size)
         found = trimesh.Trimesh(fewer.vertices, fewer.faces, process=False)
@@ -28,8 +28,7 @@ def test_the_topology_is_kept_to_the_last(mesh, euler):
 
 @pytest.mark.parametrize(("mesh", "least"), [(sphere(3), 4), (torus(), 7)])
 def test_it_ends_where_no_edge_can_collapse(mesh, least):
-    triangles = Triangles(mesh.vertices, np.asarray(mesh.faces), np.ones(len(mesh.vertices), bool))
-    fewer = decimate(triangles, 4)
+    fewer = decimate(Triangles.of(mesh), 4)
     found = trimesh.Trimesh(fewer.vertices, fewer.faces, process=False)
     assert found.euler_number == mesh.euler_number
     assert found.is_watertight
