@@ -26,6 +26,20 @@ def endpoints(faces: Ints) -> tuple[Ints, Ints]:
     return faces.ravel(), np.roll(faces, -1, axis=1).ravel()
 
 
+def corners_by_vertex(faces: Ints, count: int) -> tuple[Ints, Ints]:
+    """Group the corners of (F, 3) faces by the vertex, of `count` = V, that they are at.
+
+    Returns
+    -------
+    start : (V + 1,) int array
+        Vertex v has ``corners[start[v]:start[v + 1]]``.
+    corners : (3F,) int array
+        Those of a vertex in ascending order.
+    """
+    numbers = np.bincount(faces.ravel(), minlength=count)
+    return np.concatenate(([0], np.cumsum(numbers))), np.argsort(faces.ravel(), kind="stable")
+
+
 @dataclass(frozen=True, slots=True)
 class Edges:
     """The E undirected edges of a triangle array.

@@ -61,10 +61,7 @@ class _Round:
         self.mesh = mesh
         self.faces = mesh.faces.copy()
         self.twin = halfedges.twins(mesh.faces)
-        self.corners = np.argsort(mesh.faces.ravel(), kind="stable")
-        self.start = np.concatenate(
-            ([0], np.cumsum(np.bincount(mesh.faces.ravel(), minlength=len(mesh.vertices))))
-        )
+        self.start, self.corners = halfedges.corners_by_vertex(mesh.faces, len(mesh.vertices))
         self.locked: set[int] = set()
         self.collapsed = self.flipped = 0
 

@@ -10,6 +10,7 @@ from gipkg.parametrizers.flow.poisson import Poisson
 from gipkg.parametrizers.flow.transfer import carry_all, carry_carefully, destinations
 from gipkg.parametrizers.sphere.areas import signed_spherical_areas
 from gipkg.surfaces.areas import at_vertices, face_areas
+from gipkg.surfaces.halfedges import corners_by_vertex
 
 
 class AreaFlow:
@@ -31,8 +32,7 @@ class AreaFlow:
         self.elements = LinearElements(scale * vertices, faces)
         self._poisson = Poisson(self.elements.stiffness(), rank)
         self._areas = at_vertices(self.elements.areas, faces, len(vertices))
-        self._fans = np.argsort(faces.ravel(), kind="stable")
-        self._fan_starts = np.searchsorted(faces.ravel()[self._fans], np.arange(len(vertices) + 1))
+        self._fan_starts, self._fans = corners_by_vertex(faces, len(vertices))
 
     def advance(
         self, sphere: NDArray[np.float64], *, step: float, integrated: bool, guard: bool
