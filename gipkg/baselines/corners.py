@@ -19,7 +19,7 @@ def about_area_centroid(mesh: trimesh.Trimesh) -> tuple[NDArray[np.float64], NDA
     corners : (F, 3, 3) float64 array
     areas : (F,) float64 array
     """
-    from gipkg.surfaces.validation import face_areas
+    from gipkg.surfaces.areas import face_areas
 
     vertices, faces = np.asarray(mesh.vertices, dtype=np.float64), np.asarray(mesh.faces)
     # Relative to a vertex, so that a far-away mesh loses no digits.
