@@ -28,9 +28,16 @@ def modes_at_unit_area(spectrum: Spectrum) -> tuple[NDArray[np.float64], NDArray
     squares : (V, k) float64 array
         Squared eigenfunctions; their mean over the surface is 1. Summed over an eigenspace,
         they do not depend on its basis.
+
+    Raises
+    ------
+    UnsupportedMesh
+        No eigenspace is known to be whole: there is but one eigenpair.
     """
     last = spectrum.eigenvalues[-1]
     whole = spectrum.eigenvalues < last * (1 - SAME_EIGENVALUE)
+    if not whole.any():
+        raise UnsupportedMesh("not one of its modes is known for certain: compute more eigenpairs")
     area = spectrum.mass.sum()
     return area * spectrum.eigenvalues[whole], area * spectrum.eigenvectors[:, whole] ** 2
 
@@ -41,7 +48,7 @@ def waves_at_unit_area(spectrum: Spectrum) -> tuple[NDArray[np.float64], NDArray
     Raises
     ------
     UnsupportedMesh
-        There is no other mode.
+        There is no mode, or no other.
     """
     eigenvalues, squares = modes_at_unit_area(spectrum)
     if len(eigenvalues) < 2:
