@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from gipkg.errors import UnsupportedMesh
-from gipkg.reporting.tips import limb_tips, vertex_areas
+from gipkg.reporting.tips import limb_tips, vertex_shares
 
 _REST = 0.2
 """Share of the area around the middle that keeps its place."""
@@ -50,7 +50,7 @@ def bend(mesh: trimesh.Trimesh, towards: ArrayLike, angle: float) -> trimesh.Tri
     if not len(tips.vertex):
         raise UnsupportedMesh("the shape has no limbs to bend: name one with limbs")
     vertices = np.array(mesh.vertices, dtype=np.float64)
-    middle = vertex_areas(mesh) @ vertices
+    middle = vertex_shares(mesh) @ vertices
     targets = vertices.copy()
     for tip, end in enumerate(tips.vertex):
         axis = np.cross(vertices[end] - middle, np.asarray(towards, dtype=np.float64))
@@ -80,5 +80,5 @@ def _around(mesh: trimesh.Trimesh, point: NDArray[np.float64]) -> NDArray[np.boo
     """Tell which vertices (V,) are nearest to a point, up to a share of the area."""
     order = np.argsort(np.linalg.norm(np.asarray(mesh.vertices) - point, axis=1), kind="stable")
     inside = np.zeros(len(order), dtype=bool)
-    inside[order[np.cumsum(vertex_areas(mesh)[order]) <= _REST]] = True
+    inside[order[np.cumsum(vertex_shares(mesh)[order]) <= _REST]] = True
     return inside

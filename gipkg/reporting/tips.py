@@ -53,7 +53,7 @@ def limb_tips(mesh: trimesh.Trimesh, area: float = AREA) -> Tips:
         Share of the surface's area that one region has, up to one vertex.
     """
     graph = edge_graph(np.asarray(mesh.vertices), np.asarray(mesh.faces))
-    areas = vertex_areas(mesh)
+    areas = vertex_shares(mesh)
     outward = dijkstra(graph, indices=_middle(graph))
     reach = _REACH * outward.max()
     highest = np.maximum.reduceat(outward[graph.indices], graph.indptr[:-1])
@@ -66,7 +66,7 @@ def limb_tips(mesh: trimesh.Trimesh, area: float = AREA) -> Tips:
     return Tips(tips, _regions(dijkstra(graph, indices=tips), areas, area))
 
 
-def vertex_areas(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
+def vertex_shares(mesh: trimesh.Trimesh) -> NDArray[np.float64]:
     """Return the share (V,) of each vertex in the area: a third of its faces."""
     faces = np.asarray(mesh.faces)
     areas = face_areas(np.asarray(mesh.vertices), faces)

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from gipkg.datasets.articulated import Articulated
-from gipkg.reporting.tips import AREA, limb_tips, vertex_areas
+from gipkg.reporting.tips import AREA, limb_tips, vertex_shares
 
 
 @pytest.mark.parametrize(("label", "limbs"), [("hands", 5), ("octopuses", 8), ("humans", 5)])
@@ -17,7 +17,7 @@ def test_every_limb_has_a_tip(label: str, limbs: int) -> None:
     mesh = Articulated().load(Path(), f"{label}-003")
     tips = limb_tips(mesh)
     assert len(tips.vertex) == limbs
-    sizes = vertex_areas(mesh)
+    sizes = vertex_shares(mesh)
     for tip, vertex in enumerate(tips.vertex):
         inside = tips.region == tip
         assert inside[vertex]
@@ -48,4 +48,4 @@ def test_the_order_of_the_vertices_does_not_matter(hand: trimesh.Trimesh) -> Non
 
 def test_vertices_share_the_area_of_their_faces(hand: trimesh.Trimesh) -> None:
     around = [hand.area_faces[faces[faces >= 0]].sum() / 3 for faces in hand.vertex_faces]
-    assert vertex_areas(hand) == pytest.approx(np.array(around) / hand.area)
+    assert vertex_shares(hand) == pytest.approx(np.array(around) / hand.area)

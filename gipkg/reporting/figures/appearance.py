@@ -17,7 +17,7 @@ from gipkg.images.reconstruct import reconstruct
 from gipkg.reporting.cameras import Camera, camera_on
 from gipkg.reporting.colours import category
 from gipkg.reporting.rendering import NEUTRAL
-from gipkg.reporting.tips import Tips, vertex_areas
+from gipkg.reporting.tips import Tips, vertex_shares
 
 
 def sphere_camera(towards_eye: ArrayLike) -> Camera:
@@ -88,7 +88,7 @@ def as_seen(mesh: trimesh.Trimesh, camera: Camera) -> NDArray[np.float64]:
     The centroid of the surface becomes the origin.
     """
     vertices = np.asarray(mesh.vertices)
-    seen: NDArray[np.float64] = (vertices - vertex_areas(mesh) @ vertices) @ camera.axes.T
+    seen: NDArray[np.float64] = (vertices - vertex_shares(mesh) @ vertices) @ camera.axes.T
     return seen
 
 
@@ -100,7 +100,7 @@ def facing(spherical_map: SphericalMap, camera: Camera) -> Rotation:
     """
     mesh = spherical_map.mesh
     seen = as_seen(mesh, camera)
-    return Rotation.align_vectors(seen, spherical_map.sphere, vertex_areas(mesh))[0]
+    return Rotation.align_vectors(seen, spherical_map.sphere, vertex_shares(mesh))[0]
 
 
 def turned_as_seen(spherical_map: SphericalMap, camera: Camera) -> SphericalMap:

@@ -24,7 +24,7 @@ from gipkg.reporting.cut_lines import cut_lines
 from gipkg.reporting.figures.appearance import as_seen, facing
 from gipkg.reporting.figures.layout import page, panel, pixels
 from gipkg.reporting.rendering import Lines, Surface, render
-from gipkg.reporting.tips import vertex_areas
+from gipkg.reporting.tips import vertex_shares
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -162,7 +162,7 @@ def _pose(
     if like is None:
         turn = facing(spherical_map, _camera(mesh))
     else:
-        weights = vertex_areas(mesh)
+        weights = vertex_shares(mesh)
         turn = Rotation.align_vectors(like.sphere, spherical_map.sphere, weights)[0]
     sphere = turn.apply(spherical_map.sphere)
     signature = HeatKernelSignature(times=_TIMES).describe(mesh, Operators(mesh))

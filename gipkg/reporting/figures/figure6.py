@@ -22,7 +22,7 @@ from gipkg.reporting.cut_lines import cut_lines
 from gipkg.reporting.figures.appearance import shaded, tip_colours, turned_as_seen
 from gipkg.reporting.figures.layout import as_picture, page, panel, pixels
 from gipkg.reporting.rendering import Lines, Surface, render
-from gipkg.reporting.tips import AREA, limb_tips, vertex_areas
+from gipkg.reporting.tips import AREA, limb_tips, vertex_shares
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,6 +57,8 @@ class View:
         Place of the part's end in the image, from -1 to 1.
     pixels : int
         Of the image, whose nearest vertex is in the part.
+    pixel_ratio : float
+        Share of the pixels over the share of the surface that the part has.
     """
 
     shape: str
@@ -66,6 +68,7 @@ class View:
     u: float
     v: float
     pixels: int
+    pixel_ratio: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,12 +111,14 @@ class Cuts:
         """Say in numbers where every cut puts the parts."""
         rows = []
         nearest = self.located.nearest
+        shares = vertex_shares(self.spherical_map.mesh)
         for number, (axis, turn) in enumerate(self.names):
             for name, (end, inside) in self.parts.items():
                 place = self.cuts[number].apply(self.spherical_map.sphere[end])
                 u, v = sphere_to_square(place).tolist()
-                seen = int(inside[nearest[number]].sum())
-                rows.append(View(self.shape, axis, turn, name, u, v, seen))
+                seen = inside[nearest[number]]
+                ratio = float(seen.mean() / shares[inside].sum())
+                rows.append(View(self.shape, axis, turn, name, u, v, int(seen.sum()), ratio))
         return rows
 
 
@@ -155,7 +160,7 @@ def cut_upright(shape: str, mesh: trimesh.Trimesh, sphere: NDArray[np.float64], 
     cuts = upright_cuts(spherical_map)
     downward = np.argsort(-vertices[:, 2], kind="stable")
     top = np.zeros(len(vertices), dtype=bool)
-    top[downward[np.cumsum(vertex_areas(mesh)[downward]) <= AREA]] = True
+    top[downward[np.cumsum(vertex_shares(mesh)[downward]) <= AREA]] = True
     names = [(UP, 360 / UPRIGHT_TURNS * turn) for turn in range(UPRIGHT_TURNS)]
     return Cuts(
         shape,
