@@ -18,6 +18,7 @@ onstart:
 include: "workflow/rules/configuration.smk"
 include: "workflow/rules/choices.smk"
 include: "workflow/rules/common.smk"
+include: "workflow/rules/parameters.smk"
 include: "workflow/rules/inputs.smk"
 include: "workflow/rules/resources.smk"
 include: "workflow/rules/datasets.smk"

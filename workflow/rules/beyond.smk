@@ -21,7 +21,7 @@ rule perturb:
     params:
         perturbation=lookup("{source}~{perturbation}", within=BEYOND["perturbed"]),
         seed=config["beyond"]["robustness"]["seed"],
-        options=lambda wildcards: surface_options(SimpleNamespace(database=wildcards.source)),
+        options=surface_options,
         code=fingerprint_module("gipkg.surfaces.perturbations"),
     script:
         "../scripts/perturb.py"

@@ -146,11 +146,6 @@ def is_at_hand(database):
     return dataset_plugin(database).available(Path(config["data_root"]))
 
 
-def source_of(database):
-    """Return the database that a faulty one is made of; any other is its own."""
-    return database.partition("~")[0]
-
-
 def chosen_scenes():
     """Return the shapes of the page's view: those whose database is at hand."""
     for number, subject in enumerate(config["page"]["shapes"]):

@@ -68,11 +68,6 @@ def instance(kind, name):
     return spec
 
 
-def surface_options(wildcards):
-    """Return what the surface stage is told about a database."""
-    return config["datasets"][wildcards.database].get("surface", {})
-
-
 def network(name):
     """Resolve a network to all of its parameters, defaults included."""
     parts = {"network": NetworkConfig, "training": TrainingConfig}
@@ -96,8 +91,3 @@ def image_config(name):
 
 def instances(kind, names):
     return {name: instance(kind, name) for name in sorted(set(names))}
-
-
-def picked(among, names):
-    """Return some of the instances, in one order."""
-    return {name: among[name] for name in sorted(set(names))}
