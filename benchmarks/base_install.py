@@ -1,9 +1,9 @@
 """The wheel in an environment of its own, with nothing but what the base install needs.
 
 Builds the wheel, installs it with pip (from the configured index) beside nothing else, and goes
-from a mesh to a mesh by the command line::
+from a mesh to a mesh by the command line.
 
-    python benchmarks/base_install.py [--constraint constraints.txt] [FOLDER]
+    python -m benchmarks.base_install [--constraint constraints.txt] [FOLDER]
 
 FOLDER is where the environment is made; it must not exist. By default it is temporary.
 """

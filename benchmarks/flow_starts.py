@@ -1,6 +1,6 @@
 """Where the paper's flow and Lie advection end, from several starts and as printed.
 
-Usage: python benchmarks/flow_starts.py MESH|DATABASE:SHAPE [...]
+    python -m benchmarks.flow_starts MESH|DATABASE:SHAPE ...
 
 ``tosca:wolf0`` or ``tosca-highres:david0`` are taken from the data root, GIPKG_DATA_ROOT or
 ``data``. Meshes are prepared first. Set OMP_NUM_THREADS=1.
@@ -8,8 +8,8 @@ Usage: python benchmarks/flow_starts.py MESH|DATABASE:SHAPE [...]
 
 from __future__ import annotations
 
+import argparse
 import os
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -68,7 +68,9 @@ def row(label: str, mesh: trimesh.Trimesh, sphere: np.ndarray, seconds: float, s
 
 def main() -> None:
     """Print, for every mesh, the starts and where each run ends."""
-    for name, mesh in meshes(sys.argv[1:]):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("meshes", nargs="+", metavar="MESH|DATABASE:SHAPE")
+    for name, mesh in meshes(parser.parse_args().meshes):
         print(f"{name}, {len(mesh.vertices)} vertices")
         print(f"  {'':30} {'s/step':>8} {'steps':>5} {'face std':>9} {'vertex std':>10} "
               f"{'δh·A':>9} {'flips':>6}")  # fmt: skip

@@ -1,6 +1,6 @@
 """Check every map of a finished run again: flips, degree and area distortion by method.
 
-Usage: python benchmarks/maps.py [RESULTS]
+    python -m benchmarks.maps [RESULTS]
 
 Signed spherical areas are computed afresh from the coordinates stored in `RESULTS` (by default
 ``results``).
@@ -8,7 +8,7 @@ Signed spherical areas are computed afresh from the coordinates stored in `RESUL
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +20,9 @@ from gipkg.shards import Shard
 
 def main() -> None:
     """Print one row for every database and parametrizer."""
-    results = Path(sys.argv[1] if len(sys.argv) > 1 else "results")
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", nargs="?", type=Path, default=Path("results"))
+    results = parser.parse_args().results
     print(f"{'database':12} {'parametrizer':14} {'maps':>5} {'failed':>6} {'flips':>6} "
           f"{'degree error':>12} {'face std':>9} {'worst':>7} {'vertex std':>10} "
           f"{'worst':>7}")  # fmt: skip

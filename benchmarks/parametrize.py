@@ -1,10 +1,10 @@
 """CPU seconds, iterations, distortion and flips of a map against the number of vertices.
 
-Usage: python benchmarks/parametrize.py [--method METHOD] [--set NAME=VALUE ...] [MESH ...]
+    python -m benchmarks.parametrize [--method METHOD] [--set NAME=VALUE ...] [MESH ...]
 
 Without meshes it maps urchins (balls with twelve limbs) of 642 to 163,842 vertices and ends with
-the growth exponent. The second table says where the time goes. Set OMP_NUM_THREADS=1 and quote
-ratios within one run: absolute times depend on the machine.
+the growth exponent. The columns on the right say where the time went. Set OMP_NUM_THREADS=1 and
+quote ratios within one run: absolute times depend on the machine.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import cProfile
 import pstats
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,9 +20,6 @@ import numpy as np
 import trimesh
 
 import gipkg
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
 from tests.support.shapes import urchin
 
 STEPS = {

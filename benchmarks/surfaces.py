@@ -1,6 +1,6 @@
 """What becomes of every mesh of a folder or a database: one row a mesh, whatever it holds.
 
-Usage: python benchmarks/surfaces.py [--map] [--set NAME=VALUE ...] [--database NAME] [PATH ...]
+    python -m benchmarks.surfaces [--map] [--set NAME=VALUE ...] [--database NAME] [PATH ...]
 
 PATH is a mesh, or a folder of which all files are taken; NAME a database under --data. Each mesh is
 prepared in a process of its own, which is ended after --seconds and may not take more than

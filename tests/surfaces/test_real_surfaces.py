@@ -151,7 +151,7 @@ SOUPS = {
     "airplane_0004": "one side",
     "chair_0001": "parts has only 30%",
 }
-"""A few of the 17; ``benchmarks/surfaces.py`` takes them all."""
+"""A few of the 17; ``python -m benchmarks.surfaces`` takes them all."""
 
 
 @pytest.mark.parametrize(("name", "reason"), SOUPS.items())
