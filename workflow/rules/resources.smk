@@ -1,8 +1,8 @@
 def memory(megabytes):
     """Return what a job may take, in MB; as much again at every retry.
 
-    At least twice what the largest jobs took (docs/scaling.md). The profiles of clusters ask for
-    as much, and a job that takes more is ended there, not another.
+    At least twice what the largest jobs took (docs/scaling.md). A cluster is asked for as much, and
+    a job that takes more is ended there, not another.
     """
     return lambda wildcards, attempt: attempt * megabytes
 

@@ -54,19 +54,10 @@ def map_shapes(
     out = Path(snakemake.output[0])
     seconds = snakemake.output.get("seconds")
     key = content_key(dict(snakemake.params.items()), map(Path, snakemake.input))
-    label = label_of(out)
+    label = "/".join(out.with_suffix("").parts[1:])  # below results/
     work = out.with_suffix(".work")
     clock = Path(seconds) if seconds else None
     map_shard(ids, compute, out, work, label, key=key, failures=failures, seconds=clock)
-
-
-def label_of(out: Path) -> str:
-    """Return what a job is called while it runs: its output below ``results``.
-
-    Remote storage keeps the results below folders of its own.
-    """
-    parts = out.with_suffix("").parts
-    return "/".join(parts[parts.index("results") + 1 :])
 
 
 def _say(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
