@@ -73,9 +73,3 @@ def test_the_two_commands_are_the_only_shell_blocks() -> None:
         "snakemake --cores 2 results/table1.csv",
         "pytest -n 2",
     ]
-
-
-def test_every_path_named_exists() -> None:
-    paths = re.findall(r"`((?:gipkg|config|workflow|results/reference|tests)/[\w./]*)`", TEXT)
-    assert len(paths) > 10
-    assert [path for path in paths if not (REPOSITORY / path).exists()] == []
