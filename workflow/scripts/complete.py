@@ -4,14 +4,12 @@ from pathlib import Path
 
 from gipkg.errors import TooManyFailures
 from gipkg.files import write_json
-from gipkg.shards import Shard
 
 import job
+from shards import Shards
 
 job.start(snakemake)
-failures: dict[str, str] = {}
-for path in snakemake.input:
-    failures |= Shard.open(Path(path)).failures
+failures = Shards(snakemake.input).failures
 if len(failures) > snakemake.params.max_failures:
     listing = "".join(f"\n  {shape_id}: {reason}" for shape_id, reason in sorted(failures.items()))
     allowed = snakemake.params.max_failures

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import trimesh
 from gipkg.api import SphericalMap
 from gipkg.descriptors.operators import Operators, Spectrum
-from gipkg.shards import Arrays, Shard
+from gipkg.shards import Arrays
 from gipkg.surfaces import Surface
+
+from shards import Shards
 
 
 def mesh_of(surface: Arrays) -> trimesh.Trimesh:
@@ -28,6 +29,11 @@ def surface_arrays(surface: Surface) -> Arrays:
         "mask": surface.mask,
         "report": np.array(json.dumps(surface.report.as_dict())),
     }
+
+
+def report_of(surface: Arrays) -> dict[str, Any]:
+    """Return what the surface stage reports."""
+    return json.loads(str(surface["report"]))
 
 
 def operators_of(surface: Arrays, spectrum: Arrays) -> Operators:
@@ -49,29 +55,19 @@ class Maps:
     """
 
     def __init__(self, surfaces: Sequence[str], maps: Sequence[str]) -> None:
-        self._surfaces = {
-            shape_id: shard for shard in map(_open, surfaces) for shape_id in shard.ids
-        }
-        opened = [_open(path) for path in maps]
-        self._maps = {shape_id: shard for shard in opened for shape_id in shard.ids}
+        self._surfaces, self._maps = Shards(surfaces), Shards(maps)
         self.ids = tuple(sorted(self._maps))
         self.surfaces = frozenset(self._surfaces)
-        self.failures = {
-            shape_id: reason for shard in opened for shape_id, reason in shard.failures.items()
-        }
+        self.failures = self._maps.failures
 
     def report(self, shape_id: str) -> dict[str, Any] | None:
         """Return what the surface stage reports; None where it failed."""
-        shard = self._surfaces.get(shape_id)
-        return None if shard is None else json.loads(str(shard[shape_id]["report"]))
+        surface = self._surfaces.get(shape_id)
+        return None if surface is None else report_of(surface)
 
     def mesh(self, shape_id: str) -> trimesh.Trimesh:
         """Return the surface of a shape."""
-        return mesh_of(self._surfaces[shape_id][shape_id])
+        return mesh_of(self._surfaces[shape_id])
 
     def __getitem__(self, shape_id: str) -> SphericalMap:
-        return SphericalMap(self.mesh(shape_id), self._maps[shape_id][shape_id]["sphere"])
-
-
-def _open(path: str) -> Shard:
-    return Shard.open(Path(path))
+        return SphericalMap(self.mesh(shape_id), self._maps[shape_id]["sphere"])

@@ -12,29 +12,30 @@ from typing import Any
 import numpy as np
 from gipkg.files import read_csv, write_arrays, write_json
 from gipkg.learning.prediction import Prediction
-from gipkg.shards import Shard, content_key
+from gipkg.shards import content_key
 from numpy.typing import NDArray
+
+from shards import Shards
 
 
 class Features(Mapping[str, NDArray[Any]]):
     """One named array of every shape of a database, read from its shard when asked for."""
 
     def __init__(self, paths: Collection[str], name: str) -> None:
-        shards = [Shard.open(Path(path)) for path in paths]
-        self._shard = {shape_id: shard for shard in shards for shape_id in shard}
+        self._shards = Shards(paths)
         self._name = name
 
     def __getitem__(self, shape_id: str) -> NDArray[Any]:
-        return self._shard[shape_id][shape_id][self._name]
+        return self._shards[shape_id][self._name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._shard)
+        return iter(self._shards)
 
     def __len__(self) -> int:
-        return len(self._shard)
+        return len(self._shards)
 
     def __contains__(self, shape_id: object) -> bool:
-        return shape_id in self._shard
+        return shape_id in self._shards
 
 
 def read_split(path: str, part: str) -> dict[str, str]:

@@ -1,19 +1,17 @@
 """Sum up the surfaces of a database: how fine they are and what was repaired."""
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 
 from gipkg.files import write_json
 from gipkg.reporting.survey import survey
-from gipkg.shards import Shard
 
 import job
+from meshes import report_of
+from shards import Shards
 
 job.start(snakemake)
-shards = [Shard.open(Path(path)) for path in snakemake.input]
-reports = {
-    shape_id: json.loads(str(shard[shape_id]["report"])) for shard in shards for shape_id in shard
-}
-failures = {shape_id: reason for shard in shards for shape_id, reason in shard.failures.items()}
-write_json(Path(snakemake.output[0]), asdict(survey(reports, failures)), sealed=True)
+surfaces = Shards(snakemake.input)
+reports = {shape_id: report_of(surface) for shape_id, surface in surfaces.items()}
+found = survey(reports, surfaces.failures)
+write_json(Path(snakemake.output[0]), asdict(found), sealed=True)
