@@ -4,16 +4,15 @@ from pathlib import Path
 
 import numpy as np
 from gipkg.datasets.selection import spread_over_classes
-from gipkg.files import read_csv, write_csv, write_json
+from gipkg.files import read_csv, write_csv
 from gipkg.progress import progress
 from gipkg.reporting.figures import figure7
 from gipkg.reporting.figures.layout import write_png
-from gipkg.reporting.provenance import environment
 from gipkg.reporting.shapes import read_shapes
 from gipkg.reporting.table_distortion import summarise
 
 import job
-from listings import read_listing
+from documents import read_listing, write_provenance
 from meshes import Maps
 
 job.start(snakemake)
@@ -52,5 +51,4 @@ write_png(Path(snakemake.output.png), figure7.draw(panels, histograms, variances
 rows = figure7.histogram_rows(histograms)
 write_csv(Path(snakemake.output.csv), figure7.HISTOGRAM_HEADER, rows)
 write_csv(Path(snakemake.output.shapes), figure7.SHAPE_HEADER, figure7.shape_rows(panels))
-provenance = {**environment(), "config": params.config, "plugins": params.plugins}
-write_json(Path(snakemake.output.provenance), provenance)
+write_provenance(snakemake.output.provenance, params)

@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from gipkg.files import read_json, write_csv, write_json
+from gipkg.files import write_csv
 from gipkg.reporting.figures import precision_recall
 from gipkg.reporting.figures.layout import write_png
-from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
 from gipkg.reporting.score_table import own_columns
 
 import job
+from documents import read_sealed, write_provenance
 
 job.start(snakemake)
 params = snakemake.params
@@ -17,10 +17,9 @@ cells = [(*row, column["column"]) for row in params.rows for column in params.co
 points = [
     point
     for cell, path in zip(cells, snakemake.input, strict=True)
-    for point in precision_recall.curve(*cell, read_json(Path(path), sealed=True))
+    for point in precision_recall.curve(*cell, read_sealed(path))
 ]
 own = own_columns(params.config["columns"])
 write_csv(Path(snakemake.output.csv), *as_table(points))
 write_png(Path(snakemake.output.png), precision_recall.draw(points, own))
-provenance = {**environment(), "config": params.config, "plugins": params.plugins}
-write_json(Path(snakemake.output.provenance), provenance)
+write_provenance(snakemake.output.provenance, params)

@@ -11,7 +11,7 @@ from gipkg.images.reconstruct import reconstruct
 from gipkg.progress import progress
 
 import job
-from listings import read_listing
+from documents import read_listing
 from meshes import Maps
 
 job.start(snakemake)

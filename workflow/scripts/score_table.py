@@ -3,15 +3,14 @@
 from pathlib import Path
 
 from gipkg.api import Protocol
-from gipkg.files import write_csv, write_json, write_text
+from gipkg.files import write_csv, write_text
 from gipkg.reporting import notes, score_table
-from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
 from gipkg.reporting.survey import Survey
 from gipkg.reporting.trainings import Training
 
 import job
-from listings import read_listing, read_sealed
+from documents import read_listing, read_sealed, write_provenance
 
 job.start(snakemake)
 config, seeds = snakemake.params.config, snakemake.params.seeds
@@ -71,18 +70,17 @@ reference = score_table.read_reference(Path(snakemake.input.reference))
 title = score_table.TITLES[name]
 markdown = score_table.as_markdown(title, table, in_paper, reference, text)
 write_text(Path(snakemake.output.markdown), markdown)
-provenance = {
-    **environment(),
-    "config": config,
-    "networks": snakemake.params.networks,
-    "plugins": snakemake.params.plugins,
-    "databases": {
-        database: {
-            "survey": surveys[database],
-            "sha256": dict(plugins["dataset", database].tags.files),
-            "failures": failures[database],
-        }
-        for database in databases
-    },
+about = {
+    database: {
+        "survey": surveys[database],
+        "sha256": dict(plugins["dataset", database].tags.files),
+        "failures": failures[database],
+    }
+    for database in databases
 }
-write_json(Path(snakemake.output.provenance), provenance)
+write_provenance(
+    snakemake.output.provenance,
+    snakemake.params,
+    networks=snakemake.params.networks,
+    databases=about,
+)

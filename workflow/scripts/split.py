@@ -2,17 +2,15 @@
 
 from pathlib import Path
 
-from gipkg.api import Protocol, Shape
+from gipkg.api import Protocol
 from gipkg.datasets import split
-from gipkg.files import read_csv, write_csv
+from gipkg.files import write_csv
 
 import job
+from documents import read_listing
 
 job.start(snakemake)
-shapes = [
-    Shape(row["id"], row["label"], row["part"] or None)
-    for row in read_csv(Path(snakemake.input[0]))
-]
+shapes = read_listing(snakemake.input[0])
 seed = int(snakemake.wildcards.seed)
 train, test = split(shapes, Protocol(**snakemake.params.protocol), seed)
 part = dict.fromkeys(train, "train") | dict.fromkeys(test, "test")

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import trimesh
 from gipkg.errors import DatasetNotFound
-from gipkg.files import write_csv, write_json
+from gipkg.files import write_csv
 from gipkg.reporting.figures.layout import write_png
-from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
 from gipkg.shards import Arrays, Shard
 
 import job
+from documents import write_provenance
 from meshes import mesh_of
 
 if TYPE_CHECKING:
@@ -50,5 +50,6 @@ def write_figure(snakemake: Any, figure: Figure, records: Sequence[Any]) -> None
     """Write a figure, what it shows as numbers, and where it comes from."""
     write_csv(Path(snakemake.output.csv), *as_table(records))
     write_png(Path(snakemake.output.png), figure)
-    chosen = {name: snakemake.params[name] for name in ("shapes", "size", "config", "plugins")}
-    write_json(Path(snakemake.output.provenance), {**environment(), **chosen})
+    params = snakemake.params
+    path = snakemake.output.provenance
+    write_provenance(path, params, shapes=params.shapes, size=params.size)

@@ -3,35 +3,34 @@
 from pathlib import Path
 
 from gipkg.api import Protocol
-from gipkg.files import write_csv, write_json, write_text
+from gipkg.files import write_csv, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_beyond as table
 from gipkg.reporting.figures import beyond as figure
 from gipkg.reporting.figures.layout import write_png
-from gipkg.reporting.provenance import environment
 from gipkg.reporting.records import as_table
 from gipkg.reporting.score_table import Cell, own_columns
 from gipkg.reporting.survey import Survey
 from gipkg.surfaces.perturbations import PERTURBATIONS
 
 import job
-from listings import read_listing, read_sealed
+from documents import read_listing, read_sealed, write_provenance
 
 job.start(snakemake)
 params, database = snakemake.params, snakemake.params.database
 columns = params.config["columns"]
 headings = [column["column"] for column in columns]
 plugins = job.plugins(params.plugins)
+seeds = {"few-shot": params.seeds, "robustness": params.perturbed_seeds}
 
 evaluations = map(read_sealed, snakemake.input.evaluations)
 rows = []
 for setting, _, _, amount in params.settings:
-    few = setting == "few-shot"
-    seeds = params.seeds if few else params.perturbed_seeds
-    scores = [[one for one in next(evaluations) if one["seed"] in seeds] for _ in headings]
+    part = "few-shot" if setting == "few-shot" else "robustness"
+    scores = [[one for one in next(evaluations) if one["seed"] in seeds[part]] for _ in headings]
     cells = dict(zip(headings, map(Cell.of, scores), strict=True))
     said = {"few-shot": table.FEW_SHOT, "clean": table.CLEAN}.get(setting, setting)
-    rows.append(table.Row("few-shot" if few else "robustness", said, amount, len(seeds), cells))
+    rows.append(table.Row(part, said, amount, len(seeds[part]), cells))
 
 protocols = {split: Protocol(**protocol) for split, protocol in params.protocols.items()}
 splits = list(protocols)
@@ -49,19 +48,12 @@ text.append(
     "cannot be prepared or mapped counts as misclassified. Networks and baselines learn from "
     f"surfaces as they are ({notes.literal(splits[-1])})."
 )
-text.append(notes.seeds_note({"few-shot": params.seeds, "robustness": params.perturbed_seeds}))
+text.append(notes.seeds_note(seeds))
 
 write_csv(Path(snakemake.output.csv), *table.as_csv(rows))
 write_text(Path(snakemake.output.markdown), table.as_markdown(rows, text))
 write_png(Path(snakemake.output.figure), figure.draw(rows, own_columns(columns)))
 write_csv(Path(snakemake.output.figure_csv), *as_table(figure.points(rows)))
-provenance = {
-    **environment(),
-    "config": params.config,
-    "networks": params.networks,
-    "plugins": params.plugins,
-    "seeds": {"few-shot": params.seeds, "robustness": params.perturbed_seeds},
-    "databases": {database: {"sha256": dict(plugins["dataset", database].tags.files)}},
-}
+about = {database: {"sha256": dict(plugins["dataset", database].tags.files)}}
 for path in (snakemake.output.provenance, snakemake.output.figure_provenance):
-    write_json(Path(path), provenance)
+    write_provenance(path, params, networks=params.networks, seeds=seeds, databases=about)

@@ -2,21 +2,18 @@
 
 from pathlib import Path
 
-from gipkg.files import read_json, write_csv, write_json, write_text
+from gipkg.files import write_csv, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_distortion as table
-from gipkg.reporting.provenance import environment
 from gipkg.reporting.shapes import read_shapes
 from gipkg.reporting.survey import Survey
 
 import job
+from documents import read_sealed, write_provenance
 
 job.start(snakemake)
 params, plugins = snakemake.params, job.plugins(snakemake.params.plugins)
-surveys = {
-    database: read_json(Path(path), sealed=True)
-    for database, path in zip(params.databases, snakemake.input.surveys, strict=True)
-}
+surveys = dict(zip(params.databases, map(read_sealed, snakemake.input.surveys), strict=True))
 cells = [(database, method) for database in params.databases for method in params.methods]
 shapes = dict(zip(cells, map(read_shapes, map(Path, snakemake.input.shapes)), strict=True))
 rows = [table.summarise(*cell, shapes[cell]) for cell in cells]
@@ -47,17 +44,11 @@ write_csv(Path(snakemake.output.csv), header, lines)
 reference = table.read_reference(Path(snakemake.input.reference))
 markdown = table.as_markdown(rows, params.methods, reference, text)
 write_text(Path(snakemake.output.markdown), markdown)
-provenance = {
-    **environment(),
-    "config": params.config,
-    "plugins": params.plugins,
-    "databases": {
-        database: {
-            "survey": surveys[database],
-            "sha256": dict(plugins["dataset", database].tags.files),
-        }
-        for database in params.databases
-    },
-    "failures": failures,
+about = {
+    database: {
+        "survey": surveys[database],
+        "sha256": dict(plugins["dataset", database].tags.files),
+    }
+    for database in params.databases
 }
-write_json(Path(snakemake.output.provenance), provenance)
+write_provenance(snakemake.output.provenance, params, databases=about, failures=failures)

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from gipkg.files import read_csv, write_csv, write_json, write_text
+from gipkg.files import read_csv, write_csv, write_text
 from gipkg.reporting import notes
 from gipkg.reporting import table_reconstruction as table
-from gipkg.reporting.provenance import environment
 
 import job
+from documents import write_provenance
 
 job.start(snakemake)
 params, plugins = snakemake.params, job.plugins(snakemake.params.plugins)
@@ -35,13 +35,8 @@ for database, method in cells:
 header, lines = table.as_csv(entries, methods)
 write_csv(Path(snakemake.output.csv), header, lines)
 write_text(Path(snakemake.output.markdown), table.as_markdown(entries, methods, text))
-provenance = {
-    **environment(),
-    "config": params.config,
-    "plugins": params.plugins,
-    "databases": {
-        database: {"sha256": dict(plugins["dataset", database].tags.files)}
-        for database in params.databases
-    },
+about = {
+    database: {"sha256": dict(plugins["dataset", database].tags.files)}
+    for database in params.databases
 }
-write_json(Path(snakemake.output.provenance), provenance)
+write_provenance(snakemake.output.provenance, params, databases=about)
