@@ -44,9 +44,9 @@ text += [
     for fault in params.config["robustness"]["faults"]
 ]
 text.append(
-    "A faulty surface is prepared again like any other: closed, of genus 0, the largest part. What "
-    "cannot be prepared or mapped counts as misclassified. Networks and baselines learn from "
-    f"surfaces as they are ({notes.literal(splits[-1])})."
+    "A faulty surface is prepared again like any other of its database. What cannot be prepared "
+    "or mapped counts as misclassified. Networks and baselines learn from surfaces as they are "
+    f"({notes.literal(splits[-1])})."
 )
 text.append(notes.seeds_note(seeds))
 
