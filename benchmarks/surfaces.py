@@ -37,7 +37,7 @@ import gipkg
 from gipkg import registry
 from gipkg.errors import GipkgError
 from gipkg.evaluation.surface_distance import surface_distance
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 
 COLUMNS = ["outcome", "V", "genus", "mask", "lost", "added", "missing", "CPU", "MB"]
 MAP_COLUMNS = ["flips", "face std", "map CPU", "image"]
@@ -47,7 +47,7 @@ def sources(arguments: argparse.Namespace) -> Iterator[tuple[str, Callable[[], A
     """Yield the name of every mesh and how to load it."""
     for path in arguments.paths:
         files = [path] if path.is_file() else sorted(f for f in path.rglob("*") if f.is_file())
-        yield from ((file.name, partial(load_mesh, file)) for file in files)
+        yield from ((file.name, partial(read_mesh, file)) for file in files)
     if arguments.database:
         database = registry.create("dataset", arguments.database, {})
         for shape in database.shapes(arguments.data):

@@ -38,7 +38,7 @@ def command(
     jobs = plan(files, output, suffix, MESH_SUFFIXES)
 
     def work(job: Job) -> Facts:
-        from gipkg.formats.meshes import write_mesh
+        from gipkg.formats.mesh_writing import write_mesh
         from gipkg.surfaces import prepare
 
         surface = prepare(job.source, **options)

@@ -27,7 +27,7 @@ def command(
     def work(job: Job) -> Facts:
         from gipkg.errors import ImageFormatError
         from gipkg.formats.images import read_image
-        from gipkg.formats.meshes import write_mesh
+        from gipkg.formats.mesh_writing import write_mesh
         from gipkg.images.reconstruct import reconstruct
 
         image = read_image(job.source)

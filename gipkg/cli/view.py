@@ -58,14 +58,14 @@ def command(
 def _draw(path: Path, size: int) -> NDArray[np.uint8]:
     from gipkg.formats.images import read_image
     from gipkg.formats.maps import is_map, read_map
-    from gipkg.formats.reading import load_mesh
+    from gipkg.formats.mesh_reading import read_mesh
     from gipkg.reporting import pictures
 
     if path.suffix.lower() in IMAGE_SUFFIXES:
         return pictures.of_image(read_image(path), size)
     if is_map(path):
         return pictures.of_map(read_map(path), size)
-    return pictures.of_mesh(load_mesh(path), size)
+    return pictures.of_mesh(read_mesh(path), size)
 
 
 def _say(facts: Facts) -> str:

@@ -16,7 +16,7 @@ from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 from gipkg.api.dataset import Axis, Part
 from gipkg.errors import DatasetLayoutError, DatasetNotFound
 from gipkg.formats import MESH_SUFFIXES
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -115,7 +115,7 @@ class Folder(Dataset):
         found = _shapes(self.path).get(shape_id)
         if found is None:
             raise DatasetNotFound(f"{self.path} has no shape {shape_id!r}")
-        return load_mesh(found[1])
+        return read_mesh(found[1])
 
 
 def _shapes(path: Path) -> dict[str, tuple[Shape, Path]]:

@@ -18,7 +18,7 @@ from gipkg.api.dataset import Axis, Part
 from gipkg.datasets.archives import fetch_archive, is_intact
 from gipkg.datasets.zip_archives import read_zip_member, zip_names
 from gipkg.errors import DatasetNotFound, MeshFormatError
-from gipkg.formats.reading import parse_mesh
+from gipkg.formats.mesh_reading import parse_mesh
 
 if TYPE_CHECKING:
     import trimesh

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 from gipkg.datasets.archives import fetch_archive, is_intact, read_members
 from gipkg.errors import DatasetNotFound
-from gipkg.formats.reading import parse_mesh
+from gipkg.formats.mesh_reading import parse_mesh
 
 if TYPE_CHECKING:
     import trimesh

@@ -16,7 +16,7 @@ from gipkg.files import atomic, write_arrays
 from gipkg.formats import MAP_SUFFIXES
 from gipkg.formats.array_faults import array_fault
 from gipkg.formats.arrays import read_arrays
-from gipkg.formats.ply import FACE, header, write_ply
+from gipkg.formats.ply_writing import FACE, header, write_ply
 
 _PROPERTIES = ("x", "y", "z", "mesh_x", "mesh_y", "mesh_z")
 _COMMENT = "a spherical map by gipkg, x y z on the unit sphere"

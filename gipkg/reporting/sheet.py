@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gipkg.errors import MeshFormatError
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 from gipkg.reporting.figures.layout import page, panel, pixels
 from gipkg.reporting.pictures import Picture, of_mesh
 
@@ -55,7 +55,7 @@ def draw(meshes: Sequence[Shown]) -> Figure:
 def _picture(path: Path) -> Picture:
     size, _ = pixels(_SIDE, _SIDE)
     try:
-        return of_mesh(load_mesh(path), size)
+        return of_mesh(read_mesh(path), size)
     except MeshFormatError:
         return np.full((size, size, 3), 255, np.uint8)
 

@@ -16,7 +16,7 @@ from pydantic import ConfigDict, Field, validate_call
 from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
 from gipkg.formats.array_faults import array_fault
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 from gipkg.surfaces.distance import deviation
 from gipkg.surfaces.parts import require_area
 from gipkg.surfaces.repair import repair
@@ -118,7 +118,7 @@ def prepare(
         return volume_surface(
             source, vertices=vertices, components=components, smallest_part=smallest_part
         )
-    given = source if isinstance(source, trimesh.Trimesh) else load_mesh(source)
+    given = source if isinstance(source, trimesh.Trimesh) else read_mesh(source)
     name = str(given.metadata.get("file_name") or "the mesh")
     with _naming(name):
         mesh = _triangles(given)

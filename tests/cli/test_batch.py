@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from gipkg.cli import _batch
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 from tests.cli.commands import records, run, run_well
 
 
@@ -83,7 +83,7 @@ def test_nothing_is_overwritten_unless_forced(tmp_path: Path) -> None:
     assert "a.ply exists already; --force replaces it" in result.stderr
     assert target.read_text() == "precious"
     run_well("prepare", source, "-o", target, "--force")
-    assert len(load_mesh(target).vertices) == 8
+    assert len(read_mesh(target).vertices) == 8
 
 
 def test_a_failure_leaves_what_was_there_even_if_forced(tmp_path: Path) -> None:

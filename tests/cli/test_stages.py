@@ -13,7 +13,7 @@ import gipkg
 from gipkg.evaluation.surface_distance import surface_distance
 from gipkg.formats.images import read_image
 from gipkg.formats.maps import read_map, write_map
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 from tests.cli.commands import records, run, run_well
 
 
@@ -33,7 +33,7 @@ def test_there_and_back(
         ("reconstruct", f"image/egg.{image_format}"),
     ):
         run_well(command, tmp_path / source, "-o", tmp_path / command, *options)
-    again = load_mesh(tmp_path / "reconstruct" / "egg.ply")
+    again = read_mesh(tmp_path / "reconstruct" / "egg.ply")
     assert again.is_watertight
     assert again.euler_number == 2
     assert again.volume == pytest.approx(egg.volume, rel=0.02)
@@ -55,10 +55,10 @@ def test_a_mesh_that_needs_no_repair_is_written_as_it_is(
     mesh_file: Path, egg: trimesh.Trimesh, tmp_path: Path
 ) -> None:
     (record,) = records(run_well("prepare", mesh_file, "-o", tmp_path / "closed.off", "--json"))
-    closed = load_mesh(tmp_path / "closed.off")
+    closed = read_mesh(tmp_path / "closed.off")
     assert record["steps"] == []
     np.testing.assert_array_equal(closed.faces, egg.faces)
-    np.testing.assert_array_equal(closed.vertices, load_mesh(mesh_file).vertices)
+    np.testing.assert_array_equal(closed.vertices, read_mesh(mesh_file).vertices)
 
 
 def test_prepare_reports_what_the_library_reports(egg: trimesh.Trimesh, tmp_path: Path) -> None:
@@ -77,21 +77,21 @@ def test_prepare_reports_what_the_library_reports(egg: trimesh.Trimesh, tmp_path
 
 def test_the_map_is_the_librarys(mesh_file: Path, tmp_path: Path) -> None:
     run_well("parametrize", mesh_file, "-o", tmp_path / "a.npz", "-m", "conformal")
-    known = gipkg.parametrize(load_mesh(mesh_file), "conformal")
+    known = gipkg.parametrize(read_mesh(mesh_file), "conformal")
     np.testing.assert_array_equal(read_map(tmp_path / "a.npz").sphere, known.sphere)
 
 
 def test_parameters_reach_the_method(mesh_file: Path, tmp_path: Path) -> None:
     option = ("-p", "shape_weight=1e-2")
     run_well("parametrize", mesh_file, "-o", tmp_path / "a.npz", *option)
-    known = gipkg.parametrize(load_mesh(mesh_file), shape_weight=1e-2)
+    known = gipkg.parametrize(read_mesh(mesh_file), shape_weight=1e-2)
     np.testing.assert_array_equal(read_map(tmp_path / "a.npz").sphere, known.sphere)
 
 
 def test_distort_gives_the_librarys_figures(mesh_file: Path, tmp_path: Path) -> None:
     run_well("parametrize", mesh_file, "-o", tmp_path / "a.ply")
     of_map, of_mesh = records(run_well("distort", tmp_path / "a.ply", mesh_file, "--json"))
-    measured = gipkg.distortion(gipkg.parametrize(load_mesh(mesh_file)))
+    measured = gipkg.distortion(gipkg.parametrize(read_mesh(mesh_file)))
     expected = {
         field.name: getattr(measured, field.name)
         for field in fields(measured)
@@ -104,7 +104,7 @@ def test_distort_gives_the_librarys_figures(mesh_file: Path, tmp_path: Path) -> 
 
 
 def test_a_map_of_a_mesh_with_flat_faces_has_no_distortion(mesh_file: Path, tmp_path: Path) -> None:
-    known = gipkg.parametrize(load_mesh(mesh_file))
+    known = gipkg.parametrize(read_mesh(mesh_file))
     flat = trimesh.Trimesh(known.mesh.vertices * [1, 0, 0], known.mesh.faces, process=False)
     write_map(tmp_path / "flat.npz", gipkg.SphericalMap(flat, known.sphere))
     result = run("distort", tmp_path / "flat.npz", "--json")
@@ -115,7 +115,7 @@ def test_a_map_of_a_mesh_with_flat_faces_has_no_distortion(mesh_file: Path, tmp_
 def test_describe_gives_the_librarys_channels(mesh_file: Path, tmp_path: Path) -> None:
     arguments = ("describe", mesh_file, "-o", tmp_path / "a.npy", "-d", "hks", "-p", "times=3")
     (record,) = records(run_well(*arguments, "--json"))
-    known = gipkg.describe(load_mesh(mesh_file), "hks", times=3)
+    known = gipkg.describe(read_mesh(mesh_file), "hks", times=3)
     np.testing.assert_array_equal(np.load(tmp_path / "a.npy"), known)
     assert len(record["channels"]) == 3
 

@@ -12,8 +12,8 @@ import pytest
 import trimesh
 
 from gipkg.errors import MeshFormatError
-from gipkg.formats import limits, reading
-from gipkg.formats.reading import load_mesh
+from gipkg.formats import limits, mesh_reading
+from gipkg.formats.mesh_reading import read_mesh
 from tests.surfaces.solids import sphere
 
 CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
@@ -67,7 +67,7 @@ OBJ = "\n".join(
 )
 def test_a_cube_of_squares_and_triangles(tmp_path: Path, name: str, content: bytes) -> None:
     (tmp_path / name).write_bytes(content)
-    mesh = load_mesh(tmp_path / name)
+    mesh = read_mesh(tmp_path / name)
     np.testing.assert_array_equal(mesh.vertices, CUBE)
     assert len(mesh.faces) == 12
     assert mesh.is_watertight
@@ -80,7 +80,7 @@ def test_both_kinds_of_stl(tmp_path: Path, form: str) -> None:
     (tmp_path / "a.stl").write_bytes(
         content if isinstance(content := ball.export(file_type=form), bytes) else content.encode()
     )
-    mesh = load_mesh(tmp_path / "a.stl")
+    mesh = read_mesh(tmp_path / "a.stl")
     np.testing.assert_allclose(mesh.triangles, ball.triangles, atol=1e-6)
 
 
@@ -97,7 +97,7 @@ def test_the_places_of_a_scene_are_those_of_trimesh(tmp_path: Path) -> None:
         scene.add_geometry(box, node_name=name, parent_node_name=parent, transform=matrix)
         parent = name if number % 2 else parent
     scene.export(tmp_path / "a.glb")
-    ours, theirs = load_mesh(tmp_path / "a.glb"), scene.to_geometry()
+    ours, theirs = read_mesh(tmp_path / "a.glb"), scene.to_geometry()
     assert len(ours.faces) == 4 * len(box.faces)
     key = [np.sort(np.round(one.triangles_center, 5), axis=0) for one in (ours, theirs)]
     np.testing.assert_allclose(key[0], key[1], atol=2e-5)
@@ -111,14 +111,14 @@ def test_rotation_translation_and_scale_make_a_matrix(tmp_path: Path) -> None:
     path = scene(tmp_path, nodes=[{"mesh": 0, **{k: v.tolist() for k, v in node.items()}}])
     matrix = trimesh.transformations.quaternion_matrix(turn)[:3, :3]
     expected = TRIANGLE.astype(float) * size @ matrix.T + place
-    np.testing.assert_allclose(load_mesh(path).vertices, expected, atol=1e-12)
+    np.testing.assert_allclose(read_mesh(path).vertices, expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("size", [(-1, 1, 1), (1, -2, 1), (-1, -1, -1), (1e-90, 1e-90, -1e-150)])
 def test_a_mirrored_part_faces_the_same_side(tmp_path: Path, size: tuple[float, ...]) -> None:
     inner = {"mesh": 0, "scale": size}
     nodes = [{"children": [1]}, inner, {"children": [3], "scale": [1, 1, -1]}, inner]
-    mesh = load_mesh(scene(tmp_path, nodes=nodes, scenes=[{"nodes": [0, 2]}]))
+    mesh = read_mesh(scene(tmp_path, nodes=nodes, scenes=[{"nodes": [0, 2]}]))
     np.testing.assert_array_equal(mesh.faces, [[2, 1, 0], [3, 4, 5]])
 
 
@@ -133,7 +133,7 @@ def test_an_index_outside_the_vertices_is_refused(tmp_path: Path, index: int) ->
         meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
     )
     with pytest.raises(MeshFormatError, match="names a vertex that does not exist"):
-        load_mesh(path)
+        read_mesh(path)
 
 
 @pytest.mark.parametrize(("mode", "order"), [(5, [0, 1, 2, 3]), (6, [0, 1, 3, 2])])
@@ -148,7 +148,7 @@ def test_strips_and_fans_keep_their_side(tmp_path: Path, mode: int, order: list[
         accessors=[accessor],
         meshes=[{"primitives": [strip, {**strip, "mode": 1}]}],
     )
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     np.testing.assert_allclose(mesh.face_normals, [[0, 0, 1]] * 2)
     assert mesh.area == pytest.approx(1)
 
@@ -198,7 +198,7 @@ def test_a_scene_cannot_ask_for_more_than_it_holds(
     tmp_path: Path, changes: dict[str, object], fault: str
 ) -> None:
     with pytest.raises(MeshFormatError, match=rf"a\.glb: not readable as \.glb: .*{fault}"):
-        load_mesh(scene(tmp_path, **changes))
+        read_mesh(scene(tmp_path, **changes))
 
 
 def test_a_part_that_is_shown_very_often(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -206,7 +206,7 @@ def test_a_part_that_is_shown_very_often(tmp_path: Path, monkeypatch: pytest.Mon
     nodes = [{"mesh": 0}] * 1001
     path = scene(tmp_path, nodes=nodes, scenes=[{"nodes": list(range(1001))}])
     with pytest.raises(MeshFormatError, match="1001 faces, more than 3000 and 1000; decimate"):
-        load_mesh(path)
+        read_mesh(path)
 
 
 HEAD = "ply\nformat {} 1.0\nelement vertex {}\n" + "".join(
@@ -243,16 +243,16 @@ FACES = "element face {}\nproperty list uint int vertex_indices\nend_header\n"
 def test_faults_are_named(tmp_path: Path, name: str, content: str, fault: str) -> None:
     (tmp_path / name).write_text(content)
     with pytest.raises(MeshFormatError, match=rf"{name}: not readable as .*{fault}"):
-        load_mesh(tmp_path / name)
+        read_mesh(tmp_path / name)
 
 
 def test_a_file_that_is_too_large_is_not_opened(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(reading, "LARGEST_FILE", 1000)
+    monkeypatch.setattr(mesh_reading, "LARGEST_FILE", 1000)
     (tmp_path / "a.obj").write_bytes(bytes(1001))
     with pytest.raises(MeshFormatError, match="1001 bytes, more than 1000; decimate"):
-        load_mesh(tmp_path / "a.obj")
+        read_mesh(tmp_path / "a.obj")
 
 
 MIXED = (
@@ -281,7 +281,7 @@ def test_memory_is_in_proportion_to_the_file(tmp_path: Path, name: str, content:
     path.write_bytes(content)
     tracemalloc.start()
     try:
-        load_mesh(path)
+        read_mesh(path)
     except MeshFormatError:
         pass
     finally:
@@ -296,4 +296,4 @@ def test_other_formats_are_not_guessed(tmp_path: Path) -> None:
     for suffix in (".zip", ".gz", ".gltf", ".3mf", ".dae"):
         (tmp_path / f"a{suffix}").write_bytes(b"PK")
         with pytest.raises(MeshFormatError, match=r"none of \.ply, \.off"):
-            load_mesh(tmp_path / f"a{suffix}")
+            read_mesh(tmp_path / f"a{suffix}")

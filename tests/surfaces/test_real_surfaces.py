@@ -11,7 +11,7 @@ import trimesh
 from scipy.io import loadmat
 
 from gipkg.errors import UnsupportedMesh
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 from gipkg.surfaces import prepare
 from tests.surfaces.prepared import assert_untouched
 from tests.surfaces.solids import assert_genus_zero, bare
@@ -47,7 +47,7 @@ def assert_closed(mesh: trimesh.Trimesh) -> None:
 
 @pytest.mark.parametrize("name", CLOSED)
 def test_accurate_scans_stay_as_they_are(data_root, name):
-    mesh = load_mesh(data_root / "surfaces" / "closed" / f"{name}.off")
+    mesh = read_mesh(data_root / "surfaces" / "closed" / f"{name}.off")
     assert_closed(mesh)
     assert_untouched(mesh, prepare(mesh))
 
@@ -58,7 +58,7 @@ def test_handles_of_models_are_cut(data_root, name, genus):
     surface = prepare(path)
     assert surface.report.before.genus == genus
     assert surface.report.steps[0].figures["handles"] == genus
-    assert surface.mesh.volume == pytest.approx(load_mesh(path).volume, rel=0.05)
+    assert surface.mesh.volume == pytest.approx(read_mesh(path).volume, rel=0.05)
     assert_genus_zero(surface.mesh)
     assert not prepare(surface.mesh).report.changed
 

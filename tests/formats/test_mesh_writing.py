@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from gipkg.formats import MESH_SUFFIXES
-from gipkg.formats.meshes import write_mesh
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
+from gipkg.formats.mesh_writing import write_mesh
 
 TETRAHEDRON = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 
@@ -28,7 +28,7 @@ def test_every_bit_comes_back(
 ) -> None:
     path = tmp_path_factory.mktemp("meshes") / f"a{suffix}"
     write_mesh(path, trimesh.Trimesh(vertices, TETRAHEDRON, process=False))
-    again = load_mesh(path)
+    again = read_mesh(path)
     np.testing.assert_array_equal(again.vertices, vertices)
     np.testing.assert_array_equal(again.faces, TETRAHEDRON)
 
@@ -37,7 +37,7 @@ def test_every_bit_comes_back(
 def test_single_precision(tmp_path: Path, suffix: str) -> None:
     mesh = trimesh.creation.icosphere(subdivisions=1)
     write_mesh(tmp_path / f"a{suffix}", mesh)
-    again = load_mesh(tmp_path / f"a{suffix}")
+    again = read_mesh(tmp_path / f"a{suffix}")
     np.testing.assert_allclose(
         again.vertices[again.faces], mesh.vertices[mesh.faces], rtol=1e-6, atol=1e-7
     )

@@ -10,7 +10,7 @@ import trimesh
 
 from gipkg.files import atomic
 from gipkg.formats import MESH_SUFFIXES
-from gipkg.formats.ply import write_ply
+from gipkg.formats.ply_writing import write_ply
 
 
 def write_mesh(path: Path, mesh: trimesh.Trimesh) -> None:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gipkg.errors import MeshFormatError
-from gipkg.formats.reading import load_mesh
+from gipkg.formats.mesh_reading import read_mesh
 from tests.surfaces.solids import sphere
 
 QUADS = "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n" + "".join(
@@ -22,7 +22,7 @@ def test_formats_keep_the_surface(tmp_path, suffix):
     ball = sphere()
     path = tmp_path / f"ball.{suffix}"
     ball.export(path)
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     assert len(mesh.faces) == len(ball.faces)
     assert mesh.volume == pytest.approx(ball.volume, rel=1e-5)
     assert mesh.metadata["file_name"] == path.name
@@ -34,7 +34,7 @@ def test_off_keeps_every_bit_and_the_order(tmp_path):
     rows += [" ".join(map(str, [3, *face])) for face in ball.faces.tolist()]
     path = tmp_path / "ball.off"
     path.write_text("\n".join(["OFF", f"{len(ball.vertices)} {len(ball.faces)} 0", *rows]))
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     assert np.array_equal(mesh.vertices, ball.vertices)
     assert np.array_equal(mesh.faces, ball.faces)
 
@@ -55,7 +55,7 @@ def test_off_keeps_every_bit_and_the_order(tmp_path):
 def test_ways_to_write_off(tmp_path, text):
     path = tmp_path / "cube.off"
     path.write_text(text, newline="")
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(1)
 
@@ -70,7 +70,7 @@ def test_binary_off(tmp_path, colours):
         data += struct.pack(f">{len(face) + 1}i", len(face), *face) + colours
     path = tmp_path / "pyramid.off"
     path.write_bytes(data)
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(1 / 3)
 
@@ -80,7 +80,7 @@ def test_concave_polygon_is_triangulated_inside(tmp_path):
     lines = [f"{x} {y} 0" for x, y in corners]
     path = tmp_path / "u.off"
     path.write_text("\n".join(["OFF", "9 1 0", *lines, "9 " + " ".join(map(str, range(9)))]))
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     signed = mesh.area_faces * mesh.face_normals[:, 2]
     assert signed.sum() == pytest.approx(4 * 3 - 2 * 2)
     assert signed.min() > 0.05
@@ -91,7 +91,7 @@ def test_polygons_at_no_place_are_named(tmp_path, wild):
     path = tmp_path / "wild.off"
     path.write_text(QUADS.replace("1 1 0\n", f"1 {wild} 0\n", 1))
     with pytest.raises(MeshFormatError, match="not finite"):
-        load_mesh(path)
+        read_mesh(path)
 
 
 @pytest.mark.parametrize("wild", ["1e308", "1e-310"])
@@ -99,7 +99,7 @@ def test_polygons_in_places_without_measure(tmp_path, wild):
     """No triangulation is better than another there, and each is still one."""
     path = tmp_path / "wild.off"
     path.write_text(QUADS.replace("1 1 0\n", f"1 {wild} 0\n", 1))
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     assert len(mesh.faces) == 12
     assert (np.bincount(mesh.edges_unique_inverse) == 2).all()
 
@@ -140,19 +140,19 @@ def test_faults_of_files_are_named(tmp_path, name, content, fault):
     path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(MeshFormatError, match=fault) as caught:
-        load_mesh(path)
+        read_mesh(path)
     assert str(path) in str(caught.value)
 
 
 def test_missing_file_folder_and_point_cloud(tmp_path):
     with pytest.raises(MeshFormatError, match="no such file"):
-        load_mesh(tmp_path / "missing.off")
+        read_mesh(tmp_path / "missing.off")
     with pytest.raises(MeshFormatError, match="a folder"):
-        load_mesh(tmp_path)
+        read_mesh(tmp_path)
     cloud = tmp_path / "cloud.ply"
     trimesh.PointCloud(sphere().vertices).export(cloud)
     with pytest.raises(MeshFormatError):
-        load_mesh(cloud)
+        read_mesh(cloud)
 
 
 def test_scenes_are_concatenated(tmp_path):
@@ -163,7 +163,7 @@ def test_scenes_are_concatenated(tmp_path):
         )
     path = tmp_path / "two.glb"
     scene.export(path)
-    mesh = load_mesh(path)
+    mesh = read_mesh(path)
     assert len(mesh.faces) == 2 * len(sphere(1).faces)
     assert mesh.extents[0] == pytest.approx(7, rel=0.05)
 
@@ -181,7 +181,7 @@ def test_damaged_off_is_a_mesh_or_a_named_error(tmp_path_factory, whole, data):
     path = tmp_path_factory.mktemp("off", numbered=True) / "damaged.off"
     path.write_bytes(damaged)
     try:
-        mesh = load_mesh(path)
+        mesh = read_mesh(path)
     except MeshFormatError:
         return
     assert mesh.faces.max() < len(mesh.vertices)

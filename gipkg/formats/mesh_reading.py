@@ -20,7 +20,7 @@ from gipkg.formats.polygons import triangulate_polygons
 from gipkg.formats.stl import parse_stl
 
 
-def load_mesh(path: Path | str) -> trimesh.Trimesh:
+def read_mesh(path: Path | str) -> trimesh.Trimesh:
     """Read a mesh file without changing what it says.
 
     The formats are ``.ply``, ``.off``, ``.obj``, ``.stl`` and ``.glb``. Polygons are
@@ -49,7 +49,7 @@ def load_mesh(path: Path | str) -> trimesh.Trimesh:
 
 
 def parse_mesh(data: bytes, path: Path) -> trimesh.Trimesh:
-    """Read the content of a mesh file, as :func:`load_mesh` does a file.
+    """Read the content of a mesh file, as :func:`read_mesh` does a file.
 
     Parameters
     ----------
