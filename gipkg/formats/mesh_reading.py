@@ -96,14 +96,14 @@ def _read(path: Path) -> bytes:
 def _parse(data: bytes, path: Path) -> tuple[np.ndarray, np.ndarray]:
     try:
         match path.suffix.lower():
-            case ".off":
-                return parse_off(data, path)
             case ".glb":
                 return parse_glb(data)
             case ".stl":
                 return parse_stl(data)
             case ".obj":
                 vertices, faces = parse_obj(data)
+            case ".off":
+                vertices, faces = parse_off(data)
             case _:
                 vertices, faces = parse_ply(data)
         return vertices, triangulate_polygons(vertices, faces)

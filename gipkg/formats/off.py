@@ -10,52 +10,38 @@ from __future__ import annotations
 import re
 from array import array
 from itertools import islice
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gipkg.errors import MeshFormatError
 from gipkg.formats.limits import check_counts
 from gipkg.formats.lines import words_of_lines
-from gipkg.formats.polygons import Polygons, triangulate_polygons
-
-Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
+from gipkg.formats.polygons import Polygons
 
 _HEADER = re.compile(rb"(?:\s|#[^\r\n]*)*(?:ST)?C?N?(4?)(n?)OFF[ \t]*(BINARY)?[ \t]*\r?\n?")
 
 
-def parse_off(data: bytes, path: Path) -> Arrays:
-    """Read the vertices and the triangulated faces of an OFF file's content.
-
-    Parameters
-    ----------
-    data : bytes
-        All of it.
-    path : Path
-        What to call it in an error.
+def parse_off(data: bytes) -> tuple[NDArray[np.float64], Polygons]:
+    """Read the vertices and the polygons of an OFF file's content.
 
     Returns
     -------
     vertices : (V, 3) float64 array
-    faces : (F, 3) int64 array
+    faces : Polygons
+        Nothing is said of whether their corners exist.
 
     Raises
     ------
-    MeshFormatError
-        The file is not OFF in three dimensions, or ends early, or counts wrongly.
+    ValueError
+        It is no OFF file in three dimensions, ends early, is too large, or counts wrongly.
     """
     header = _HEADER.match(data)
     if header is None:
-        raise MeshFormatError(path, "the header OFF is missing")
+        raise ValueError("it does not begin with the header of an OFF file")
     if header[1] or header[2]:
-        raise MeshFormatError(path, "only OFF files in three dimensions are read")
+        raise ValueError("only OFF files in three dimensions are read")
     body = data[header.end() :]
-    try:
-        vertices, faces = _binary(body) if header[3] else _text(body)
-        return vertices, triangulate_polygons(vertices, faces)
-    except (ValueError, OverflowError) as error:
-        raise MeshFormatError(path, f"not a well-formed OFF file: {error}") from error
+    return _binary(body) if header[3] else _text(body)
 
 
 def _text(body: bytes) -> tuple[NDArray[np.float64], Polygons]:

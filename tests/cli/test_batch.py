@@ -32,7 +32,7 @@ def test_a_bad_file_is_named_and_the_others_finish(tmp_path: Path) -> None:
     result = run("prepare", *files, "-o", tmp_path / "out")
     assert result.exit_code == 1
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.ply", "c.ply"]
-    assert f"{bad}: not a well-formed OFF file" in result.stderr
+    assert f"{bad}: not readable as .off" in result.stderr
     assert f"{absent}: there is no such file" in result.stderr
     assert "2 of 4 failed" in result.stderr
     assert [line.split(" -> ")[0] for line in result.stdout.splitlines()] == [*map(str, good)]
