@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -85,12 +84,14 @@ def check(names: tuple[str, ...], root: Path, as_json: bool) -> None:
 
     Without a name, of all that are at hand; a database that is named has to be.
     """
+    from gipkg.datasets.downloads import require_intact
+
     datasets = {name: _dataset(name) for name in names or _all()}
     asked = names or [name for name, one in datasets.items() if _at_hand(one, root)]
 
     def work(name: str) -> Facts:
         for file, sha256 in datasets[name].tags.files.items():
-            _verify(root / file, sha256)
+            require_intact(root / file, sha256)
         if not datasets[name].available(root):
             raise DatasetNotFound(f"not under {root}; gipkg data fetch {name} gets it")
         return _facts(name, datasets[name], root)
@@ -126,17 +127,6 @@ def _at_hand(dataset: Dataset, root: Path) -> bool:
     """Tell whether the files are there; only for a database without a list ask itself."""
     files = dataset.tags.files
     return all((root / file).is_file() for file in files) if files else dataset.available(root)
-
-
-def _verify(path: Path, sha256: str) -> None:
-    from gipkg.datasets.archives import is_intact
-
-    if not path.is_file():
-        raise DatasetNotFound(f"{path}: no such file; gipkg data fetch gets it or says from where")
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always")
-        if not is_intact(path, sha256):
-            raise DatasetNotFound(" ".join(str(warning.message) for warning in said))
 
 
 def _say(facts: Facts) -> str:

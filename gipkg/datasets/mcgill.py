@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape, Volume
-from gipkg.datasets.archives import is_intact, read_members
+from gipkg.datasets.downloads import is_intact
+from gipkg.datasets.tar_archives import read_tar_members
 from gipkg.errors import DatasetNotFound, MeshFormatError
 
 ARCHIVE = "mcgill/mcgill_im.tar.gz"
@@ -138,7 +139,7 @@ class McGill(Dataset):
         member = _members(root).get(shape_id)
         if member is None or shape_id in DUPLICATES:
             raise DatasetNotFound(f"McGill has no shape {shape_id!r}; it has such as ants-b1")
-        content = read_members(root / ARCHIVE, SHA256, SUFFIX)[member]
+        content = read_tar_members(root / ARCHIVE, SHA256, SUFFIX)[member]
         try:
             return Volume(_read_voxels(gzip.decompress(content)))
         except (OSError, EOFError, zlib.error, struct.error, ValueError, KeyError) as error:
@@ -147,7 +148,7 @@ class McGill(Dataset):
 
 def _members(root: Path) -> Mapping[str, str]:
     """Find the archive's member of every identifier."""
-    return _by_id(tuple(read_members(root / ARCHIVE, SHA256, SUFFIX)))
+    return _by_id(tuple(read_tar_members(root / ARCHIVE, SHA256, SUFFIX)))
 
 
 @lru_cache(maxsize=2)

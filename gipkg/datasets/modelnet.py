@@ -15,7 +15,7 @@ from pydantic import Field
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 from gipkg.api.dataset import Axis, Part
-from gipkg.datasets.archives import fetch_archive, is_intact
+from gipkg.datasets.downloads import fetch_archive, require_intact
 from gipkg.datasets.zip_archives import read_zip_member, zip_names
 from gipkg.errors import DatasetNotFound, MeshFormatError
 from gipkg.formats.mesh_reading import parse_mesh
@@ -117,9 +117,9 @@ class ModelNetMeshes(ModelNet):
         raise DatasetNotFound(f"{path.stem} has no shape {shape_id!r}; it has such as chair_0001")
 
     def _listing(self, root: Path) -> list[Shape]:
-        path, sha256 = root / self.archive, self.tags.files[self.archive]
-        if path.is_file() and not is_intact(path, sha256):
-            raise DatasetNotFound(f"{path}: delete it and fetch the database again")
+        path = root / self.archive
+        if path.is_file():
+            require_intact(path, self.tags.files[self.archive])
         models = self._models(root)
         if not self._is_whole(models):
             raise DatasetNotFound(

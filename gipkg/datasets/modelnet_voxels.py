@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gipkg.api import DatasetTags, Protocol, Shape, Volume
 from gipkg.api.dataset import Part
-from gipkg.datasets.archives import is_intact
+from gipkg.datasets.downloads import is_intact, require_intact
 from gipkg.datasets.modelnet import LICENCE, PARTS, ModelNet
 from gipkg.errors import DatasetNotFound
 
@@ -114,10 +114,7 @@ class ModelNet10Voxels(ModelNet):
 
 def _verified(root: Path) -> Path:
     path = root / ARCHIVE
-    if not path.is_file():
-        raise DatasetNotFound(f"{path}: no such file; put the grids there")
-    if not is_intact(path, SHA256):
-        raise DatasetNotFound(f"{path}: its SHA-256 is not {SHA256}; replace it")
+    require_intact(path, SHA256)
     return path
 
 

@@ -7,7 +7,8 @@ from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, ClassVar
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape
-from gipkg.datasets.archives import fetch_archive, is_intact, read_members
+from gipkg.datasets.downloads import fetch_archive, is_intact
+from gipkg.datasets.tar_archives import read_tar_members
 from gipkg.errors import DatasetNotFound
 from gipkg.formats.mesh_reading import parse_mesh
 
@@ -73,11 +74,11 @@ class Shrec11(Dataset):
         member = self._members(root).get(shape_id)
         if member is None:
             raise DatasetNotFound(f"shrec11 has no shape {shape_id!r}; it has T0 to T599")
-        content = read_members(root / ARCHIVE, SHA256, ".obj")[str(member)]
+        content = read_tar_members(root / ARCHIVE, SHA256, ".obj")[str(member)]
         return parse_mesh(content, root / ARCHIVE / member)
 
     @staticmethod
     def _members(root: Path) -> dict[str, PurePosixPath]:
         """Find the archive's member of every identifier."""
-        names = map(PurePosixPath, read_members(root / ARCHIVE, SHA256, ".obj"))
+        names = map(PurePosixPath, read_tar_members(root / ARCHIVE, SHA256, ".obj"))
         return {name.stem: name for name in names}

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from pydantic import Field, field_validator
 
 from gipkg.api import Dataset, DatasetTags, Protocol, Shape
-from gipkg.datasets.archives import is_intact, read_members
+from gipkg.datasets.downloads import is_intact
+from gipkg.datasets.tar_archives import read_tar_members
 from gipkg.errors import DatasetNotFound, MeshFormatError, did_you_mean
 
 if TYPE_CHECKING:
@@ -124,7 +125,7 @@ class Tosca(Dataset):
         return root / name, sha256
 
     def _members(self, root: Path) -> dict[str, bytes]:
-        members = read_members(*self._archive(root), ".mat")
+        members = read_tar_members(*self._archive(root), ".mat")
         return {PurePosixPath(name).stem: content for name, content in members.items()}
 
 

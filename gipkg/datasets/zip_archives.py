@@ -8,6 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 from zipfile import BadZipFile, ZipFile
 
+from gipkg.datasets.downloads import version_of
 from gipkg.errors import MeshFormatError
 
 MEMBER_LIMIT = 256 * 2**20
@@ -49,8 +50,7 @@ def read_zip_member(path: Path, name: str) -> bytes:
 
 
 def _open(path: Path) -> ZipFile:
-    status = path.stat()
-    return _open_once(path, status.st_size, status.st_mtime_ns, os.getpid())
+    return _open_once(*version_of(path), os.getpid())
 
 
 @lru_cache(maxsize=2)

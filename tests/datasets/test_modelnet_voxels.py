@@ -76,5 +76,5 @@ def test_without_the_file_it_says_where_it_belongs(tmp_path):
             action(tmp_path)
     (tmp_path / ARCHIVE).parent.mkdir()
     (tmp_path / ARCHIVE).write_bytes(b"PK")
-    with pytest.raises(DatasetNotFound, match="SHA-256"), pytest.warns(UserWarning, match="SHA"):
+    with pytest.raises(DatasetNotFound, match="SHA-256"):
         dataset.shapes(tmp_path)

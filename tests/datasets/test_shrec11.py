@@ -70,7 +70,7 @@ def test_all_meshes_are_closed_and_twelve_are_of_genus_one(root):
 
 
 def test_vertices_keep_the_order_of_the_file(root):
-    content = shrec11.read_members(root / ARCHIVE, shrec11.SHA256, ".obj")
+    content = shrec11.read_tar_members(root / ARCHIVE, shrec11.SHA256, ".obj")
     member = next(name for name in content if name.endswith("/T7.obj"))
     lines = [line.split() for line in content[member].decode().splitlines()]
     mesh = Shrec11().load(root, "T7")
