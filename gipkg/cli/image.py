@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import get_args
 
 import click
 
@@ -19,11 +19,8 @@ from gipkg.cli._plugins import (
     resolve,
 )
 from gipkg.formats import IMAGE_SUFFIXES
+from gipkg.images.octahedron import Sampling
 
-if TYPE_CHECKING:
-    from gipkg.images.octahedron import Sampling
-
-SAMPLINGS = ("equal-area", "authors")
 POSITIONS = ("x", "y", "z")
 
 
@@ -45,7 +42,7 @@ POSITIONS = ("x", "y", "z")
 @parameter_option
 @click.option(
     "--sampling",
-    type=click.Choice(SAMPLINGS),
+    type=click.Choice(get_args(Sampling)),
     default="equal-area",
     show_default=True,
     help="How the square wraps the sphere.",

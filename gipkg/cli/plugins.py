@@ -12,7 +12,7 @@ import click
 
 from gipkg import registry
 from gipkg.cli._options import folder_type
-from gipkg.cli._plugins import require_no_file
+from gipkg.cli._plugins import require_no_file, resolve
 from gipkg.cli._tables import table
 from gipkg.errors import UnknownPluginError, did_you_mean
 from gipkg.registry import KINDS, Kind, PluginRef
@@ -153,13 +153,11 @@ def _all(kind: Kind | None) -> list[PluginRef]:
 
 def _find(name: str, kind: Kind | None) -> PluginRef:
     """Find a plugin among all kinds, or load the file that is named instead."""
-    if ":" in name:
-        if kind is None:
-            raise click.UsageError(f"a plugin in one file needs --kind {{{'|'.join(KINDS)}}}")
-        return registry.register_local(kind, Path(name.rpartition(":")[0]).stem.lower(), name)
-    require_no_file(name)
     if kind:
-        return registry.find(kind, name)
+        return registry.find(kind, resolve(kind, name))
+    if ":" in name:
+        raise click.UsageError(f"a plugin in one file needs --kind {{{'|'.join(KINDS)}}}")
+    require_no_file(name)
     refs = _all(None)
     kinds = sorted({ref.kind for ref in refs if ref.name == registry.normalise(name)})
     if not kinds:

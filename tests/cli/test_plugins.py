@@ -82,6 +82,7 @@ def test_an_unknown_name_is_one_line_on_stderr_and_exit_code_1() -> None:
         ("plugins", "lits"),
         ("plugins", "list", "--kind", "descriptors"),
         ("plugins", "show", "mine.py:Mine"),
+        ("plugins", "show", "absent.py:Mine", "--kind", "descriptor"),
         ("plugins", "new", "descriptor", "Bad_Name"),
         ("plugins", "new", "descriptor", "hks"),
         ("plugins", "check", "hks", "--expect-failure", "no-such-check=why"),
