@@ -28,7 +28,7 @@ class MeshFormatError(GipkgError):
 
 
 class DamagedFileError(GipkgError):
-    """A file that gipkg wrote is no longer whole; delete it and run the command again."""
+    """A file that gipkg wrote or fetched is no longer whole; the message says the way out."""
 
 
 class ImageFormatError(GipkgError):

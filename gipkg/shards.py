@@ -13,7 +13,6 @@ import logging
 import shutil
 import time
 import zipfile
-import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from hashlib import file_digest, sha256
@@ -23,12 +22,12 @@ from typing import Any
 from urllib.parse import quote, unquote
 
 import numpy as np
-from numpy.lib.npyio import NpzFile
 from numpy.typing import NDArray
 
 from gipkg.errors import DamagedFileError
 from gipkg.files import atomic, write_arrays, write_csv, write_text
 from gipkg.progress import progress
+from gipkg.zip_damage import damage_as_value_error, require_whole_directory
 
 Arrays = Mapping[str, NDArray[Any]]
 """What is known of one shape: a name for every array."""
@@ -38,9 +37,6 @@ NO_FAILURES: Mapping[str, str] = MappingProxyType({})
 _FAILURES = "failures"
 _NOT_THE_SHAPES_FAULT = (OSError, MemoryError, ImportError, DamagedFileError)
 """Faults of the machine or the installation: they end the job, a rerun takes it up again."""
-_DAMAGE = (ValueError, KeyError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error)
-"""What reading a damaged ``.npz`` raises; a changed bit of the directory can make a member
-encrypted, or of another or an unknown compression."""
 
 log = logging.getLogger(__name__)
 
@@ -94,7 +90,8 @@ class Shard(Mapping[str, dict[str, NDArray[Any]]]):
         DamagedFileError
             The file is not a whole shard.
         """
-        with _reading(path) as archive:
+        with _naming_damage(path), np.load(path, allow_pickle=False) as archive:
+            require_whole_directory(path)
             failures = json.loads(str(archive[_FAILURES]))
             members: dict[str, tuple[str, ...]] = {}
             for key in archive.files:
@@ -111,10 +108,10 @@ class Shard(Mapping[str, dict[str, NDArray[Any]]]):
         KeyError
             The shape is not in this shard, or failed.
         DamagedFileError
-            A checksum inside the file does not fit.
+            They are not in the file any more, or a checksum does not fit.
         """
         names = self._members[shape_id]
-        with _reading(self.path) as archive:
+        with _naming_damage(self.path), np.load(self.path, allow_pickle=False) as archive:
             return {unquote(name): archive[f"{_quote(shape_id)}/{name}"] for name in names}
 
     def __iter__(self) -> Iterator[str]:
@@ -219,7 +216,8 @@ def _pack(out: Path, done: Mapping[str, Path], failures: Mapping[str, str]) -> N
                 target, np.array(json.dumps(failures, sort_keys=True)), allow_pickle=False
             )
         for shape_id, part in done.items():
-            with zipfile.ZipFile(part) as source:
+            with _naming_damage(part), zipfile.ZipFile(part) as source:
+                require_whole_directory(part)
                 for name in sorted(source.namelist()):
                     member = f"{_quote(shape_id)}/{name}"
                     with (
@@ -235,12 +233,12 @@ def _quote(text: str) -> str:
 
 
 @contextmanager
-def _reading(path: Path) -> Iterator[NpzFile]:
-    """Open an ``.npz``, and name the file where it turns out to be damaged."""
+def _naming_damage(path: Path) -> Iterator[None]:
+    """Name the file that turns out to be damaged, and the way out."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            yield archive
-    except _DAMAGE as error:
+        with damage_as_value_error(path):
+            yield
+    except (ValueError, KeyError) as error:
         raise DamagedFileError(
             f"{path}: not a whole shard ({error}); delete it and run the command again"
         ) from error

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from gipkg.errors import DamagedFileError
 from gipkg.files import read_csv
 from gipkg.shards import Arrays, Shard, content_key, join, map_shard, shard_of
+from tests.support.zip_bits import with_a_changed_bit
 
 HOSTILE = [
     "../x",
@@ -198,21 +199,34 @@ def test_a_flipped_bit_is_found_and_does_not_count_as_a_failed_shape(tmp_path: P
 
 
 def test_a_flipped_bit_in_the_directory_is_found_or_changes_nothing(tmp_path: Path) -> None:
-    path, values = tmp_path / "in.npz", np.arange(500.0)
-    map_shard(["a"], lambda _: {"x": values}, path, tmp_path / "work", "", key="k")
-    content = path.read_bytes()
-    start = content.rindex(b"PK\1\2")
-    assert content[start + 46 :].startswith(b"a/x.npy")
-    found = []
-    for bit in range(32):  # flags, then the compression
-        damaged = bytearray(content)
-        damaged[start + 8 + bit // 8] ^= 1 << bit % 8
+    path = tmp_path / "out.npz"
+    shard = run(tmp_path, ["a", "bad", "é"])
+    known = {shape_id: shard[shape_id] for shape_id in shard}
+    said = []
+    for damaged in with_a_changed_bit(path.read_bytes()):
         path.write_bytes(damaged)
         try:
-            np.testing.assert_array_equal(Shard.open(path)["a"]["x"], values)
-        except DamagedFileError:
-            found.append(bit)
-    assert {0, *range(16, 32)} <= set(found)  # encrypted, compressed
+            again = Shard.open(path)
+            assert again.failures == shard.failures
+            np.testing.assert_equal({shape_id: again[shape_id] for shape_id in again}, known)
+        except DamagedFileError as error:
+            said.append(str(error))
+    assert len(said) > 500
+    assert all(text.startswith(f"{path}: not a whole shard") for text in said)
+
+
+def test_a_damaged_part_is_found_when_it_is_packed(tmp_path: Path) -> None:
+    kill_at_the_third(tmp_path, "k")
+    (part, *_) = sorted((tmp_path / "work" / "k").glob("*.npz"))
+    whole = part.read_bytes()
+    renamed = bytearray(whole)
+    renamed[whole.index(b"PK\1\2") + 46] ^= 1
+    for damaged in (renamed, whole[:-1]):
+        part.write_bytes(damaged)
+        with pytest.raises(DamagedFileError, match=part.name):
+            run(tmp_path, list("abcd"), key="k")
+    part.unlink()
+    assert run(tmp_path, list("abcd"), key="k").ids == ("a", "b", "c", "d")
 
 
 def test_pickles_are_neither_written_nor_read(tmp_path: Path) -> None:

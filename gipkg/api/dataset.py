@@ -139,4 +139,6 @@ class Dataset(Plugin):
             The files are not there, or no shape has that identifier.
         MeshFormatError
             The shape's file cannot be read.
+        DamagedFileError
+            A file that was downloaded is no longer whole.
         """

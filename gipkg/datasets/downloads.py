@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from gipkg.errors import DatasetNotFound
+from gipkg.errors import DamagedFileError, DatasetNotFound
 
 
 def is_intact(path: Path, sha256: str) -> bool:
@@ -30,12 +30,14 @@ def require_intact(path: Path, sha256: str) -> None:
     Raises
     ------
     DatasetNotFound
-        Says whether it is missing or another one, and the way out.
+        It is missing; says the way out.
+    DamagedFileError
+        It has another checksum; says the way out.
     """
     if not path.is_file():
         raise DatasetNotFound(f"{path}: no such file; gipkg data fetch gets it or says from where")
     if fault := _fault(path, sha256):
-        raise DatasetNotFound(fault)
+        raise DamagedFileError(fault)
 
 
 def fetch_archive(path: Path, sha256: str, sources: Sequence[str]) -> None:

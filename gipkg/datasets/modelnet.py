@@ -17,7 +17,7 @@ from gipkg.api import Dataset, DatasetTags, Protocol, Shape
 from gipkg.api.dataset import Axis, Part
 from gipkg.datasets.downloads import fetch_archive, require_intact
 from gipkg.datasets.zip_archives import read_zip_member, zip_names
-from gipkg.errors import DatasetNotFound, MeshFormatError
+from gipkg.errors import DamagedFileError, DatasetNotFound
 from gipkg.formats.mesh_reading import parse_mesh
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ class ModelNetMeshes(ModelNet):
         """
         try:
             return self._is_whole(self._models(root))
-        except MeshFormatError:  # An archive that cannot be listed is to be fetched again.
+        except DamagedFileError:  # An archive that cannot be listed is to be fetched again.
             return False
 
     def fetch(self, root: Path) -> None:
@@ -106,7 +106,9 @@ class ModelNetMeshes(ModelNet):
         DatasetNotFound
             No shape has that identifier.
         MeshFormatError
-            The file is no triangle mesh, or damaged in the archive.
+            The file is no triangle mesh.
+        DamagedFileError
+            The archive is damaged.
         """
         path = root / self.archive
         for part in PARTS:
@@ -114,12 +116,12 @@ class ModelNetMeshes(ModelNet):
             content = self._read(root, name) if _MODEL.fullmatch(name) else None
             if content is not None:
                 return parse_mesh(content, path.parent / name)
+        self._require_intact(root)  # a damaged archive may have lost the shape's name
         raise DatasetNotFound(f"{path.stem} has no shape {shape_id!r}; it has such as chair_0001")
 
     def _listing(self, root: Path) -> list[Shape]:
+        self._require_intact(root)
         path = root / self.archive
-        if path.is_file():
-            require_intact(path, self.tags.files[self.archive])
         models = self._models(root)
         if not self._is_whole(models):
             raise DatasetNotFound(
@@ -128,6 +130,12 @@ class ModelNetMeshes(ModelNet):
                 f"folder {path.stem} there"
             )
         return models
+
+    def _require_intact(self, root: Path) -> None:
+        """Refuse an archive with another checksum; a folder has none."""
+        path = root / self.archive
+        if path.is_file():
+            require_intact(path, self.tags.files[self.archive])
 
     def _models(self, root: Path) -> list[Shape]:
         """List what is there, which need not be everything."""

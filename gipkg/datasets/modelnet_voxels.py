@@ -98,7 +98,9 @@ class ModelNet10Voxels(ModelNet):
         Raises
         ------
         DatasetNotFound
-            No shape has that identifier, or the file is missing or damaged.
+            No shape has that identifier, or the file is missing.
+        DamagedFileError
+            The file is not the one that was published.
         """
         path = _verified(root)
         if shape_id not in _places(path):

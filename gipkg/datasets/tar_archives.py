@@ -34,7 +34,9 @@ def read_tar_members(path: Path, sha256: str, suffix: str) -> Mapping[str, bytes
     Raises
     ------
     DatasetNotFound
-        The archive is missing, or is not the one that `sha256` names.
+        The archive is missing.
+    DamagedFileError
+        It is not the one that `sha256` names.
     MeshFormatError
         It is no tar archive, or its members take more than `MEMORY_LIMIT`.
     """

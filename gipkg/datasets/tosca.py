@@ -103,7 +103,9 @@ class Tosca(Dataset):
         Raises
         ------
         DatasetNotFound
-            No shape has that identifier, or the archive is missing or damaged.
+            No shape has that identifier, or the archive is missing.
+        DamagedFileError
+            The archive is not the one that was published.
         MeshFormatError
             The archive's member is no triangle mesh.
         """

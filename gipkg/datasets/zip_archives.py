@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
-from zipfile import BadZipFile, ZipFile
+from zipfile import ZipFile
 
 from gipkg.datasets.downloads import version_of
-from gipkg.errors import MeshFormatError
+from gipkg.errors import DamagedFileError
+from gipkg.zip_damage import damage_as_value_error
 
 MEMBER_LIMIT = 256 * 2**20
 """Bytes that one member may take, unpacked."""
@@ -20,7 +22,7 @@ def zip_names(path: Path) -> tuple[str, ...]:
 
     Raises
     ------
-    MeshFormatError
+    DamagedFileError
         It is no zip archive, or ends early.
     """
     return tuple(_open(path).namelist())
@@ -32,21 +34,16 @@ def read_zip_member(path: Path, name: str) -> bytes:
     Raises
     ------
     KeyError
-        There is no such member.
-    MeshFormatError
+        There is no such member; a damaged archive may have lost its name.
+    DamagedFileError
         It is damaged or encrypted, or takes more than `MEMBER_LIMIT`.
     """
     archive = _open(path)
-    size = archive.getinfo(name).file_size
-    if size > MEMBER_LIMIT:
-        raise MeshFormatError(path / name, f"{size} bytes; at most {MEMBER_LIMIT} are read")
-    try:
-        return archive.read(name)
-    # An encrypted member is a RuntimeError, an unknown compression a NotImplementedError.
-    except (BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError) as error:
-        raise MeshFormatError(
-            path / name, f"not readable in the archive ({error}); fetch it again"
-        ) from error
+    member = archive.getinfo(name)
+    with _naming_damage(path, f"{name} is not readable in the archive"):
+        if member.file_size > MEMBER_LIMIT:
+            raise ValueError(f"{member.file_size} bytes; at most {MEMBER_LIMIT} are read")
+        return archive.read(member)
 
 
 def _open(path: Path) -> ZipFile:
@@ -60,9 +57,17 @@ def _open_once(path: Path, size: int, modified: int, process: int) -> ZipFile:
     Its file stays open. A process that was forked opens its own: the two would otherwise share
     one position in the file.
     """
-    try:
+    with _naming_damage(path, "not a readable zip archive"):
         return ZipFile(path)
-    except (BadZipFile, NotImplementedError) as error:
-        raise MeshFormatError(
-            path, f"not a readable zip archive ({error}); fetch it again"
+
+
+@contextmanager
+def _naming_damage(path: Path, fault: str) -> Iterator[None]:
+    """Name the archive that turns out to be damaged, and the way out."""
+    try:
+        with damage_as_value_error(path):
+            yield
+    except ValueError as error:
+        raise DamagedFileError(
+            f"{path}: {fault} ({error}); delete it and fetch the database again"
         ) from error

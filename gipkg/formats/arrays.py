@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import math
 import zipfile
 from pathlib import Path
@@ -11,6 +10,8 @@ from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gipkg.zip_damage import damage_as_value_error
 
 
 def read_array(path: Path) -> NDArray[Any]:
@@ -31,26 +32,20 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
     Raises
     ------
     ValueError
-        It is none, is compressed, holds Python objects, or says that it holds more than it does.
-    zipfile.BadZipFile
-        It is no archive, or a checksum in it does not fit.
+        It is none, is compressed, damaged or holds Python objects, or says that it holds more than
+        it does.
     """
     arrays = {}
     free = path.stat().st_size
-    try:
-        with zipfile.ZipFile(path) as archive:
-            for member in archive.infolist():
-                if member.compress_type != zipfile.ZIP_STORED:
-                    raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")
-                with archive.open(member) as stream:
-                    array = _read(stream, free)
-                # Members that lie on each other do not make more of the file either.
-                free -= array.nbytes
-                arrays[member.filename.removesuffix(".npy")] = array
-    except OSError as error:
-        if error.errno != errno.EINVAL:
-            raise
-        raise ValueError("a member begins before the file does") from error
+    with damage_as_value_error(path), zipfile.ZipFile(path) as archive:
+        for member in archive.infolist():
+            if member.compress_type != zipfile.ZIP_STORED:
+                raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")
+            with archive.open(member) as stream:
+                array = _read(stream, free)
+            # Members that lie on each other do not make more of the file either.
+            free -= array.nbytes
+            arrays[member.filename.removesuffix(".npy")] = array
     return arrays
 
 

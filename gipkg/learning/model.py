@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -215,11 +214,8 @@ def load_model(path: Path, device: str = "auto") -> Model:
         layout = Layout(config.margin, arrays.get("permutation"))
         scale = Scale(*(torch.from_numpy(arrays[name]) for name in ("mean", "deviation")))
         about = header["about"]
-    # Of numpy, json, pydantic (a ValueError) and torch in turn.
-    except (
-        *(ValueError, KeyError, TypeError, EOFError, RuntimeError),
-        *(LearningError, zipfile.BadZipFile),
-    ) as error:
+    # Of the file, json and pydantic (a ValueError), and of torch in turn.
+    except (ValueError, KeyError, TypeError, RuntimeError, LearningError) as error:
         raise DamagedFileError(f"{path}: not a whole trained network; train it again") from error
     classifier = Classifier(network.to(chosen), classes)
     return Model(classifier, layout, scale, size, channels, config, about)

@@ -10,7 +10,7 @@ from threading import Thread
 import pytest
 
 from gipkg.datasets.downloads import fetch_archive, is_intact, require_intact
-from gipkg.errors import DatasetNotFound
+from gipkg.errors import DamagedFileError, DatasetNotFound
 from tests.datasets.tar_files import write_archive
 
 MEMBERS = {"db/a/1.obj": b"one", "db/b/2.obj": b"two", "db/readme.txt": b"no shape"}
@@ -83,7 +83,7 @@ def test_a_truncated_file_is_named_with_its_checksum_and_the_way_out(tmp_path):
     path.write_bytes(path.read_bytes()[:-20])
     with pytest.warns(UserWarning, match=r"db\.tar\.gz.*truncated"):
         assert not is_intact(path, sha256)
-    with pytest.raises(DatasetNotFound, match=rf"db\.tar\.gz.*{sha256}.*fetch"):
+    with pytest.raises(DamagedFileError, match=rf"db\.tar\.gz.*{sha256}.*fetch"):
         require_intact(path, sha256)
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import tarfile
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from typing import ClassVar
-from zipfile import ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import numpy as np
 import pytest
@@ -15,8 +16,9 @@ import pytest
 from gipkg.api import DatasetTags
 from gipkg.datasets import modelnet, official_split, zip_archives
 from gipkg.datasets.modelnet import ModelNet10, ModelNetMeshes
-from gipkg.errors import DatasetNotFound, MeshFormatError
+from gipkg.errors import DamagedFileError, DatasetNotFound, MeshFormatError
 from tests.datasets.tar_files import checksum
+from tests.support.zip_bits import with_a_changed_bit
 
 TRIANGLE = b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 GLUED = b"OFF4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"
@@ -108,7 +110,7 @@ def test_nothing_is_read_from_elsewhere(form, name, request):
 
 def test_a_member_that_unpacks_to_too_much_is_refused(zipped, monkeypatch):
     monkeypatch.setattr(zip_archives, "MEMBER_LIMIT", len(TRIANGLE) - 1)
-    with pytest.raises(MeshFormatError, match=r"night_stand_0001\.off: \d+ bytes; at most"):
+    with pytest.raises(DamagedFileError, match=r"\.zip: .*_0001\.off .*bytes; at most"):
         Small().load(zipped, "night_stand_0001")
 
 
@@ -117,9 +119,9 @@ def test_a_damaged_member_is_named(zipped):
     content = bytearray(path.read_bytes())
     content[content.index(TRIANGLE) + 15] ^= 1
     path.write_bytes(content)
-    with pytest.raises(MeshFormatError, match=r"night_stand_0001\.off: .*CRC"):
+    with pytest.raises(DamagedFileError, match=r"\.zip: .*night_stand_0001\.off .*CRC.*delete it"):
         Small().load(zipped, "night_stand_0001")
-    with pytest.raises(DatasetNotFound, match="fetch the database again"):
+    with pytest.raises(DamagedFileError, match="fetch the database again"):
         Small().shapes(zipped)
 
 
@@ -127,8 +129,29 @@ def test_a_truncated_archive_is_named(zipped, monkeypatch):
     path = zipped / Small.archive
     path.write_bytes(path.read_bytes()[:-100])
     declare(path, monkeypatch)
-    with pytest.raises(MeshFormatError, match=r"ModelNet10\.zip: not a readable zip"):
+    with pytest.raises(DamagedFileError, match=r"ModelNet10\.zip: not a readable zip"):
         Small().shapes(zipped)
+
+
+def test_a_changed_bit_of_the_directory_is_named_or_changes_nothing(tmp_path, monkeypatch):
+    path = tmp_path / Small.archive
+    path.parent.mkdir()
+    with ZipFile(path, "w", ZIP_DEFLATED) as archive:
+        archive.writestr("ModelNet10/bed/train/bed_0001.off", TRIANGLE)
+        archive.writestr("ModelNet10/bed/test/bed_0002.off", GLUED)
+    declare(path, monkeypatch)
+    faces = {"bed_0001": 1, "bed_0002": 2}
+    said = []
+    for number, damaged in enumerate(with_a_changed_bit(path.read_bytes())):
+        path.write_bytes(damaged)
+        os.utime(path, ns=(number, number))  # the clock of the disk may not tell them apart
+        for name, count in faces.items():
+            try:
+                assert len(Small().load(tmp_path, name).faces) == count
+            except DamagedFileError as error:
+                said.append(str(error))
+    assert len(said) > 500
+    assert all(str(path) in text and "fetch the database again" in text for text in said)
 
 
 def test_a_truncated_archive_is_fetched_again(zipped, monkeypatch):

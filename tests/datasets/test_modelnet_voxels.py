@@ -11,7 +11,7 @@ import pytest
 from gipkg.api import Protocol
 from gipkg.datasets import modelnet_voxels, split
 from gipkg.datasets.modelnet_voxels import ARCHIVE, EMPTY, ModelNet10Voxels
-from gipkg.errors import DatasetNotFound
+from gipkg.errors import DamagedFileError, DatasetNotFound
 
 
 @pytest.fixture(scope="module")
@@ -76,5 +76,5 @@ def test_without_the_file_it_says_where_it_belongs(tmp_path):
             action(tmp_path)
     (tmp_path / ARCHIVE).parent.mkdir()
     (tmp_path / ARCHIVE).write_bytes(b"PK")
-    with pytest.raises(DatasetNotFound, match="SHA-256"):
+    with pytest.raises(DamagedFileError, match="SHA-256"):
         dataset.shapes(tmp_path)

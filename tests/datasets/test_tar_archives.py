@@ -10,7 +10,7 @@ import pytest
 
 from gipkg.datasets import tar_archives
 from gipkg.datasets.tar_archives import read_tar_members
-from gipkg.errors import DatasetNotFound, MeshFormatError
+from gipkg.errors import DamagedFileError, MeshFormatError
 from tests.datasets.tar_files import checksum, write_archive
 
 MEMBERS = {"db/a/1.obj": b"one", "db/b/2.obj": b"two", "db/readme.txt": b"no shape"}
@@ -61,7 +61,7 @@ def test_a_changed_file_is_read_again(tmp_path):
 def test_an_archive_with_another_checksum_is_not_read(tmp_path):
     path = tmp_path / "db.tar.gz"
     write_archive(path, MEMBERS)
-    with pytest.raises(DatasetNotFound, match=r"db\.tar\.gz: SHA-256"):
+    with pytest.raises(DamagedFileError, match=r"db\.tar\.gz: SHA-256"):
         read_tar_members(path, "0" * 64, ".obj")
 
 

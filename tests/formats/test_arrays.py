@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import struct
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -75,7 +74,7 @@ def test_members_that_lie_on_each_other_do_not_make_more_of_the_file(tmp_path: P
     # A directory of ten entries, of which each is the one member.
     struct.pack_into("<HHI", tail, 8, 10, 10, 10 * len(entry))
     path.write_bytes(content[:start] + 10 * entry + tail)
-    with pytest.raises((ValueError, zipfile.BadZipFile)):
+    with pytest.raises(ValueError, match=r"Overlapped|asks for"):
         read_arrays(path)
 
 
@@ -92,6 +91,6 @@ def test_damage_is_a_value_error_or_reads_as_numbers(
     path.write_bytes(content[: data.draw(st.integers(1, len(content)))])
     try:
         read = read_arrays(path)
-    except (ValueError, EOFError, RuntimeError, zipfile.BadZipFile):
+    except ValueError:
         return
     assert all(array.dtype.kind != "O" for array in read.values())

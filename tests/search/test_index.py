@@ -14,6 +14,7 @@ from hypothesis.extra import numpy as arrays
 from gipkg.errors import DamagedFileError, UnsupportedMesh
 from gipkg.search.index import Entry, Index, mesh_files
 from gipkg.search.network import Signature, SignatureNetwork
+from tests.support.zip_bits import with_a_changed_bit
 
 
 def index_of(table: np.ndarray, **others: Entry) -> Index:
@@ -87,6 +88,24 @@ def test_damage_is_named(tmp_path_factory: pytest.TempPathFactory, data: st.Data
         pass
     else:
         assert read.entries.keys() == index_of(np.eye(3)).entries.keys()
+
+
+def test_a_changed_bit_of_the_directory_is_named_or_changes_nothing(tmp_path: Path) -> None:
+    path, known = tmp_path / "a.npz", index_of(np.eye(3))
+    known.write(path)
+    found = 0
+    for damaged in with_a_changed_bit(path.read_bytes()):
+        path.write_bytes(damaged)
+        try:
+            again = Index.read(path)
+        except DamagedFileError:
+            found += 1
+            continue
+        assert (again.key, again.network, again.folder) == (known.key, known.network, known.folder)
+        assert again.entries.keys() == known.entries.keys()
+        for name, entry in known.entries.items():
+            np.testing.assert_equal(vars(again.entries[name].outcome), vars(entry.outcome))
+    assert found > 500
 
 
 def test_there_is_no_index() -> None:
