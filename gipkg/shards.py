@@ -14,7 +14,7 @@ import shutil
 import time
 import zipfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from hashlib import file_digest, sha256
 from pathlib import Path
 from types import MappingProxyType
@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from gipkg.errors import DamagedFileError
 from gipkg.files import atomic, write_arrays, write_csv, write_text
 from gipkg.progress import progress
-from gipkg.zip_damage import damage_as_value_error, require_whole_directory
+from gipkg.zip_damage import naming_damage, require_whole_directory
 
 Arrays = Mapping[str, NDArray[Any]]
 """What is known of one shape: a name for every array."""
@@ -37,6 +37,8 @@ NO_FAILURES: Mapping[str, str] = MappingProxyType({})
 _FAILURES = "failures"
 _NOT_THE_SHAPES_FAULT = (OSError, MemoryError, ImportError, DamagedFileError)
 """Faults of the machine or the installation: they end the job, a rerun takes it up again."""
+_DAMAGE = ("not a whole shard", "run the command again")
+"""What is said of a damaged file, and the way out."""
 
 log = logging.getLogger(__name__)
 
@@ -90,7 +92,7 @@ class Shard(Mapping[str, dict[str, NDArray[Any]]]):
         DamagedFileError
             The file is not a whole shard.
         """
-        with _naming_damage(path), np.load(path, allow_pickle=False) as archive:
+        with naming_damage(path, *_DAMAGE), np.load(path, allow_pickle=False) as archive:
             require_whole_directory(path)
             failures = json.loads(str(archive[_FAILURES]))
             members: dict[str, tuple[str, ...]] = {}
@@ -111,7 +113,7 @@ class Shard(Mapping[str, dict[str, NDArray[Any]]]):
             They are not in the file any more, or a checksum does not fit.
         """
         names = self._members[shape_id]
-        with _naming_damage(self.path), np.load(self.path, allow_pickle=False) as archive:
+        with naming_damage(self.path, *_DAMAGE), np.load(self.path, allow_pickle=False) as archive:
             return {unquote(name): archive[f"{_quote(shape_id)}/{name}"] for name in names}
 
     def __iter__(self) -> Iterator[str]:
@@ -216,7 +218,7 @@ def _pack(out: Path, done: Mapping[str, Path], failures: Mapping[str, str]) -> N
                 target, np.array(json.dumps(failures, sort_keys=True)), allow_pickle=False
             )
         for shape_id, part in done.items():
-            with _naming_damage(part), zipfile.ZipFile(part) as source:
+            with naming_damage(part, *_DAMAGE), zipfile.ZipFile(part) as source:
                 require_whole_directory(part)
                 for name in sorted(source.namelist()):
                     member = f"{_quote(shape_id)}/{name}"
@@ -230,15 +232,3 @@ def _pack(out: Path, done: Mapping[str, Path], failures: Mapping[str, str]) -> N
 def _quote(text: str) -> str:
     """Quote a name so that it is one harmless component of a path: no slash, no dot."""
     return quote(text, safe="").replace(".", "%2E")
-
-
-@contextmanager
-def _naming_damage(path: Path) -> Iterator[None]:
-    """Name the file that turns out to be damaged, and the way out."""
-    try:
-        with damage_as_value_error(path):
-            yield
-    except (ValueError, KeyError) as error:
-        raise DamagedFileError(
-            f"{path}: not a whole shard ({error}); delete it and run the command again"
-        ) from error

@@ -11,21 +11,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from gipkg.errors import DamagedFileError
+
 _LOCAL_HEADER = struct.Struct("<26xHH")
 """What stands before a member: how long its name is, and an extra field, which both follow."""
 
 
 @contextmanager
-def damage_as_value_error(path: Path) -> Iterator[None]:
+def damage_as_value_error() -> Iterator[None]:
     """Turn whatever Python's reader raises of a damaged archive into a ValueError.
 
     A changed bit of the directory can make a member encrypted, packed in another or an unknown
-    way, or begin before the file does.
-
-    Parameters
-    ----------
-    path : Path
-        The archive: faults of the disk stay what they are, but name it.
+    way, or begin before the file does. Faults of the disk stay what they are.
     """
     try:
         yield
@@ -36,8 +33,31 @@ def damage_as_value_error(path: Path) -> Iterator[None]:
             raise ValueError("a member begins before the file does") from error
         if error.errno is None:  # bzip2 says so that it cannot unpack something
             raise ValueError(str(error)) from error
-        error.filename = error.filename or str(path)
         raise
+
+
+@contextmanager
+def naming_damage(path: Path, fault: str, way_out: str) -> Iterator[None]:
+    """Name an archive that turns out to be damaged.
+
+    Parameters
+    ----------
+    path : Path
+    fault : str
+        What it is not, such as ``not a whole shard``.
+    way_out : str
+        What to do when it is deleted.
+
+    Raises
+    ------
+    DamagedFileError
+        The block raises what a damaged archive leads to, a ValueError or a KeyError among it.
+    """
+    try:
+        with damage_as_value_error():
+            yield
+    except (ValueError, KeyError) as error:
+        raise DamagedFileError(f"{path}: {fault} ({error}); delete it and {way_out}") from error
 
 
 def require_whole_directory(path: Path) -> None:
@@ -56,7 +76,7 @@ def require_whole_directory(path: Path) -> None:
     ValueError
         The directory is damaged.
     """
-    with damage_as_value_error(path), zipfile.ZipFile(path) as archive, path.open("rb") as stream:
+    with damage_as_value_error(), zipfile.ZipFile(path) as archive, path.open("rb") as stream:
         end = 0
         for member in archive.infolist():
             stream.seek(end)

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gipkg.errors import DamagedFileError
 from gipkg.files import write_arrays
-from gipkg.zip_damage import damage_as_value_error, require_whole_directory
+from gipkg.zip_damage import damage_as_value_error, naming_damage, require_whole_directory
 from tests.support.zip_bits import with_a_changed_bit
 
 METHODS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA)
@@ -28,7 +29,7 @@ def test_a_changed_bit_of_the_directory_is_a_value_error_or_renames(
     for damaged in with_a_changed_bit(path.read_bytes()):
         path.write_bytes(damaged)
         try:
-            with damage_as_value_error(path), zipfile.ZipFile(path) as archive:
+            with damage_as_value_error(), zipfile.ZipFile(path) as archive:
                 assert archive.read("a") == b"content" * 9
             outcomes.add("whole")
         except (ValueError, KeyError) as error:
@@ -48,19 +49,25 @@ def test_packed_otherwise_than_the_directory_says(tmp_path: Path, method: int) -
     path.write_bytes(content)
     with (
         pytest.raises(ValueError, match=r"."),
-        damage_as_value_error(path),
+        damage_as_value_error(),
         zipfile.ZipFile(path) as archive,
     ):
         archive.read("a")
 
 
-def test_a_fault_of_the_disk_stays_one_and_names_the_file(tmp_path: Path) -> None:
-    with (
-        pytest.raises(OSError, match=r"a\.zip") as caught,
-        damage_as_value_error(tmp_path / "a.zip"),
-    ):
-        raise OSError(errno.EIO, "Input/output error")
-    assert caught.value.errno == errno.EIO
+def test_a_fault_of_the_disk_stays_one() -> None:
+    with pytest.raises(OSError, match="full"), damage_as_value_error():
+        raise OSError(errno.ENOSPC, "the disk is full")
+
+
+def test_what_is_damaged_is_named_with_the_way_out() -> None:
+    expected = r"^a\.npz: not a whole shard \(.*gone.*\); delete it and run the command again$"
+    for error in (KeyError("it is gone"), EOFError("it is gone")):
+        with (
+            pytest.raises(DamagedFileError, match=expected),
+            naming_damage(Path("a.npz"), "not a whole shard", "run the command again"),
+        ):
+            raise error
 
 
 def test_a_whole_directory_is_that_of_all_members(tmp_path: Path) -> None:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from zipfile import ZipFile
 
 from gipkg.datasets.downloads import version_of
-from gipkg.errors import DamagedFileError
-from gipkg.zip_damage import damage_as_value_error
+from gipkg.zip_damage import naming_damage
 
 MEMBER_LIMIT = 256 * 2**20
 """Bytes that one member may take, unpacked."""
+
+WAY_OUT = "fetch the database again"
 
 
 def zip_names(path: Path) -> tuple[str, ...]:
@@ -40,7 +39,7 @@ def read_zip_member(path: Path, name: str) -> bytes:
     """
     archive = _open(path)
     member = archive.getinfo(name)
-    with _naming_damage(path, f"{name} is not readable in the archive"):
+    with naming_damage(path, f"{name} in it is not readable", WAY_OUT):
         if member.file_size > MEMBER_LIMIT:
             raise ValueError(f"{member.file_size} bytes; at most {MEMBER_LIMIT} are read")
         return archive.read(member)
@@ -57,17 +56,5 @@ def _open_once(path: Path, size: int, modified: int, process: int) -> ZipFile:
     Its file stays open. A process that was forked opens its own: the two would otherwise share
     one position in the file.
     """
-    with _naming_damage(path, "not a readable zip archive"):
+    with naming_damage(path, "not a readable zip archive", WAY_OUT):
         return ZipFile(path)
-
-
-@contextmanager
-def _naming_damage(path: Path, fault: str) -> Iterator[None]:
-    """Name the archive that turns out to be damaged, and the way out."""
-    try:
-        with damage_as_value_error(path):
-            yield
-    except ValueError as error:
-        raise DamagedFileError(
-            f"{path}: {fault} ({error}); delete it and fetch the database again"
-        ) from error

@@ -37,7 +37,7 @@ def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
     """
     arrays = {}
     free = path.stat().st_size
-    with damage_as_value_error(path), zipfile.ZipFile(path) as archive:
+    with damage_as_value_error(), zipfile.ZipFile(path) as archive:
         for member in archive.infolist():
             if member.compress_type != zipfile.ZIP_STORED:
                 raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")

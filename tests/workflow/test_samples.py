@@ -9,6 +9,7 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
+from gipkg.errors import DamagedFileError
 from gipkg.files import read_json, write_csv
 from gipkg.learning.prediction import Prediction
 from gipkg.shards import map_shard
@@ -40,6 +41,16 @@ def test_a_prediction_comes_back_as_it_was(
 ) -> None:
     samples.write_prediction(str(tmp_path / "one.npz"), prediction)
     require_equal(samples.read_prediction(str(tmp_path / "one.npz")), prediction)
+
+
+def test_a_damaged_prediction_is_named(samples: ModuleType, tmp_path: Path) -> None:
+    path = tmp_path / "one.npz"
+    samples.write_prediction(str(path), WITH_DISTANCES)
+    content = bytearray(path.read_bytes())
+    content[content.rindex(b"distances.npy")] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(DamagedFileError, match=r"one\.npz: not a whole prediction"):
+        samples.read_prediction(str(path))
 
 
 def test_shapes_without_features_are_in_neither_part_and_the_time_is_kept_apart(

@@ -13,6 +13,7 @@ import numpy as np
 from gipkg.files import read_csv, write_arrays, write_json
 from gipkg.learning.prediction import Prediction
 from gipkg.shards import content_key
+from gipkg.zip_damage import naming_damage, require_whole_directory
 from numpy.typing import NDArray
 
 from shards import Shards
@@ -83,8 +84,19 @@ def write_prediction(path: str, prediction: Prediction) -> None:
 
 
 def read_prediction(path: str) -> Prediction:
-    """Read what :func:`write_prediction` wrote."""
-    with np.load(path, allow_pickle=False) as arrays:
+    """Read what :func:`write_prediction` wrote.
+
+    Raises
+    ------
+    DamagedFileError
+        The file is not a whole prediction.
+    """
+    with (
+        naming_damage(Path(path), "not a whole prediction", "run the command again"),
+        np.load(path, allow_pickle=False) as arrays,
+    ):
+        # Distances, which not every baseline has, are not to go unnoticed.
+        require_whole_directory(Path(path))
         return Prediction(
             tuple(arrays["ids"].tolist()),
             tuple(arrays["classes"].tolist()),
