@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import get_args
 
 import click
 
@@ -19,7 +18,7 @@ from gipkg.cli._plugins import (
     resolve,
 )
 from gipkg.formats import IMAGE_SUFFIXES
-from gipkg.images.octahedron import Sampling
+from gipkg.images.sampling import SAMPLINGS, Sampling
 
 POSITIONS = ("x", "y", "z")
 

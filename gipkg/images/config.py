@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
 from gipkg.images.cuts import UPRIGHT_TURNS, random_cuts, standard_cuts, upright_cuts
-from gipkg.images.octahedron import Sampling
+from gipkg.images.sampling import Sampling
 
 
 class ImageConfig(BaseModel):

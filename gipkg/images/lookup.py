@@ -12,7 +12,8 @@ from scipy.spatial.transform import Rotation
 from gipkg.api import SphericalMap
 from gipkg.errors import UnsupportedMesh
 from gipkg.images.location import locate
-from gipkg.images.octahedron import Sampling, pixel_directions
+from gipkg.images.octahedron import pixel_directions
+from gipkg.images.sampling import Sampling
 from gipkg.images.seam import canonical_pixels
 from gipkg.surfaces.validation import check_genus_zero
 
@@ -95,7 +96,7 @@ def lookup(
     cuts : Rotation
         K rotations (or a single one, K = 1) applied to the sphere before it is cut.
     sampling : {"equal-area", "authors"}
-        How the square wraps the sphere; see :data:`gipkg.images.octahedron.Sampling`.
+        How the square wraps the sphere; see :data:`gipkg.images.sampling.Sampling`.
 
     Returns
     -------

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gipkg.images.octahedron import Sampling, sphere_to_square
+from gipkg.images.octahedron import sphere_to_square
+from gipkg.images.sampling import Sampling
 
 SOUTH = np.array([0.0, 0.0, -1.0])
 """Where the four edges meet that are cut."""

@@ -9,8 +9,7 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from gipkg.images.octahedron import pixel_directions, sphere_to_square, square_to_sphere
-
-SAMPLINGS = ["equal-area", "authors"]
+from gipkg.images.sampling import SAMPLINGS
 
 
 def triangle_quadrature(nodes: int) -> tuple[np.ndarray, np.ndarray]:

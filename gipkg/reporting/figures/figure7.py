@@ -15,8 +15,8 @@ from gipkg.errors import UnsupportedMesh
 from gipkg.evaluation.histogram import LIMIT, bin_edges
 from gipkg.evaluation.surface_distance import SurfaceDistance, surface_distance
 from gipkg.images.lookup import geometry_image
-from gipkg.images.octahedron import Sampling
 from gipkg.images.reconstruct import reconstruct
+from gipkg.images.sampling import Sampling
 from gipkg.reporting.cameras import principal_camera
 from gipkg.reporting.colours import INK, category
 from gipkg.reporting.figures.layout import page, panel, pixels
