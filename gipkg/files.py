@@ -11,7 +11,7 @@ import secrets
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from hashlib import sha256
+from hashlib import file_digest, sha256
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -55,6 +55,12 @@ def atomic(path: Path) -> Iterator[IO[bytes]]:
         if isinstance(error, OSError) and error.errno and error.filename is None:
             error.filename = str(path)  # the disk is full: where was that?
         raise
+
+
+def sha256_of(path: Path) -> str:
+    """Return the SHA-256 of a file's content, 64 hexadecimal digits; it is not held in memory."""
+    with path.open("rb") as stream:
+        return file_digest(stream, "sha256").hexdigest()
 
 
 def write_text(path: Path, text: str) -> None:

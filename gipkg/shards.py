@@ -15,7 +15,7 @@ import time
 import zipfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from hashlib import file_digest, sha256
+from hashlib import sha256
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gipkg.errors import DamagedFileError
-from gipkg.files import atomic, write_arrays, write_csv, write_text
+from gipkg.files import atomic, sha256_of, write_arrays, write_csv, write_text
 from gipkg.progress import progress
 from gipkg.zip_damage import naming_damage, require_whole_directory
 
@@ -58,8 +58,7 @@ def content_key(parameters: Any, inputs: Iterable[Path] = ()) -> str:
     """
     digest = sha256(json.dumps(parameters, sort_keys=True).encode())
     for path in inputs:
-        with path.open("rb") as stream:
-            digest.update(file_digest(stream, "sha256").digest())
+        digest.update(bytes.fromhex(sha256_of(path)))
     return digest.hexdigest()
 
 

@@ -9,6 +9,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -194,3 +195,8 @@ def test_arrays_round_trip_without_pickles(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="Object arrays"):
         files.write_arrays(tmp_path / "b.npz", {"x": np.array([{}])})
     assert not (tmp_path / "b.npz").exists()
+
+
+def test_the_checksum_of_a_file_is_that_of_its_content(tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(b"content" * 10**5)
+    assert files.sha256_of(tmp_path / "a") == sha256(b"content" * 10**5).hexdigest()

@@ -10,6 +10,9 @@ import click
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
+PICTURE_SUFFIXES = (".png",)
+"""Of pictures for the eye, which no command reads."""
+
 folder_type = click.Path(file_okay=False, path_type=Path)
 
 json_option = click.option("--json", "as_json", is_flag=True, help="One JSON object a line.")

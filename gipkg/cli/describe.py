@@ -60,4 +60,4 @@ def command(
 
 def _say(facts: Facts) -> str:
     channels = f"{counted(len(facts['channels']), 'channel')} of {facts['descriptor']}"
-    return joined(iter((counted(facts["vertices"], "vertex"), channels, repairs(facts))))
+    return joined(counted(facts["vertices"], "vertex"), channels, repairs(facts))

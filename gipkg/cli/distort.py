@@ -43,7 +43,7 @@ def command(
 
 
 def _say(facts: Facts) -> str:
-    parts = (
+    return joined(
         counted(facts["flips"], "flipped face"),
         f"deviation {facts['face_std']:.2e} over faces",
         f"{facts['vertex_std']:.2e} over vertices",
@@ -51,4 +51,3 @@ def _say(facts: Facts) -> str:
         f"degree {facts['degree']:.6g}",
         repairs(facts),
     )
-    return joined(iter(parts))

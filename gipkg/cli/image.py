@@ -41,7 +41,7 @@ POSITIONS = ("x", "y", "z")
 @parameter_option
 @click.option(
     "--sampling",
-    type=click.Choice(get_args(Sampling)),
+    type=click.Choice(SAMPLINGS),
     default="equal-area",
     show_default=True,
     help="How the square wraps the sphere.",
@@ -98,4 +98,4 @@ def command(
 
 def _say(facts: Facts) -> str:
     count, size, _ = facts["shape"]
-    return joined(iter((f"{counted(count, 'channel')} of {size} x {size}", repairs(facts))))
+    return joined(f"{counted(count, 'channel')} of {size} x {size}", repairs(facts))

@@ -53,4 +53,4 @@ def command(
 
 
 def _say(facts: Facts) -> str:
-    return joined(iter((counted(facts["vertices"], "vertex"), facts["method"], repairs(facts))))
+    return joined(counted(facts["vertices"], "vertex"), facts["method"], repairs(facts))

@@ -56,7 +56,7 @@ def _say(facts: Facts) -> str:
         for step in facts["steps"]:
             yield step["name"] + _figures(step["figures"])
 
-    return joined(parts())
+    return joined(*parts())
 
 
 def _figures(figures: Mapping[str, Any]) -> str:

@@ -9,10 +9,14 @@ import click
 
 from gipkg.cli._batch import Facts, for_each, plan, printable, require_absent
 from gipkg.cli._extras import require
-from gipkg.cli._options import allow_option, files_argument, force_option, json_option
+from gipkg.cli._options import (
+    PICTURE_SUFFIXES,
+    allow_option,
+    files_argument,
+    force_option,
+    json_option,
+)
 from gipkg.cli.index import FILE_NAME
-
-SUFFIXES = (".png",)
 
 
 @click.command()
@@ -55,7 +59,7 @@ def command(
     from gipkg.search.index import Index
     from gipkg.search.network import SignatureNetwork
 
-    jobs = plan(files, output, None, SUFFIXES) if output else []
+    jobs = plan(files, output, None, PICTURE_SUFFIXES) if output else []
     sheets = {job.source: job.target for job in jobs}
     if index_file.is_dir():
         index_file = index_file / FILE_NAME

@@ -9,19 +9,17 @@ import click
 
 from gipkg.cli._batch import Facts, Job, convert, plan
 from gipkg.cli._extras import require
-from gipkg.cli._options import files_argument, json_option, output_options
+from gipkg.cli._options import PICTURE_SUFFIXES, files_argument, json_option, output_options
 from gipkg.formats import IMAGE_SUFFIXES
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-SUFFIXES = (".png",)
-
 
 @click.command()
 @files_argument("FILE")
-@output_options(SUFFIXES)
+@output_options(PICTURE_SUFFIXES)
 @click.option(
     "--size", type=click.IntRange(32, 4096), default=512, show_default=True, help="Pixels a panel."
 )
@@ -41,7 +39,7 @@ def command(
     needed.
     """
     require("figures", "pyvista", "matplotlib")
-    jobs = plan(files, output, suffix, SUFFIXES)
+    jobs = plan(files, output, suffix, PICTURE_SUFFIXES)
 
     def work(job: Job) -> Facts:
         from gipkg.files import atomic

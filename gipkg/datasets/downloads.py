@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
 import warnings
 from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 
 from gipkg.errors import DamagedFileError, DatasetNotFound
+from gipkg.files import sha256_of
 
 
 def is_intact(path: Path, sha256: str) -> bool:
@@ -94,5 +94,4 @@ def _fault(path: Path, sha256: str) -> str | None:
 
 @lru_cache(maxsize=32)
 def _sha256(path: Path, size: int, modified: int) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+    return sha256_of(path)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from hashlib import file_digest
 from pathlib import Path, PurePosixPath
 
 import numpy as np
@@ -18,7 +17,7 @@ from gipkg.errors import (
     ParametrizationError,
     UnsupportedMesh,
 )
-from gipkg.files import write_arrays
+from gipkg.files import sha256_of, write_arrays
 from gipkg.formats import MESH_SUFFIXES
 from gipkg.formats.arrays import read_arrays
 from gipkg.search.network import Signature, SignatureNetwork
@@ -153,7 +152,7 @@ class Index:
         GipkgError
             The mesh cannot be mapped; that is kept too, and said again until the file changes.
         """
-        digest = _digest_of(path)
+        digest = sha256_of(path)
         entry = self.entries.get(name)
         if entry is None or entry.digest != digest:
             entry = Entry(digest, _outcome(path, network))
@@ -202,11 +201,6 @@ def _outcome(path: Path, network: SignatureNetwork) -> Signature | str:
         return network.signature(path)
     except (MeshFormatError, UnsupportedMesh, ParametrizationError) as error:
         return str(error).removeprefix(f"{path}: ")
-
-
-def _digest_of(path: Path) -> str:
-    with path.open("rb") as stream:
-        return file_digest(stream, "sha256").hexdigest()
 
 
 def _is_inside(name: str) -> bool:
