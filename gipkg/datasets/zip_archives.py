@@ -13,7 +13,7 @@ from gipkg.zip_damage import naming_damage
 MEMBER_LIMIT = 256 * 2**20
 """Bytes that one member may take, unpacked."""
 
-WAY_OUT = "fetch the database again"
+_WAY_OUT = "fetch the database again"
 
 
 def zip_names(path: Path) -> tuple[str, ...]:
@@ -39,7 +39,7 @@ def read_zip_member(path: Path, name: str) -> bytes:
     """
     archive = _open(path)
     member = archive.getinfo(name)
-    with naming_damage(path, f"{name} in it is not readable", WAY_OUT):
+    with naming_damage(path, f"{name} in it is not readable", _WAY_OUT):
         if member.file_size > MEMBER_LIMIT:
             raise ValueError(f"{member.file_size} bytes; at most {MEMBER_LIMIT} are read")
         return archive.read(member)
@@ -56,5 +56,5 @@ def _open_once(path: Path, size: int, modified: int, process: int) -> ZipFile:
     Its file stays open. A process that was forked opens its own: the two would otherwise share
     one position in the file.
     """
-    with naming_damage(path, "not a readable zip archive", WAY_OUT):
+    with naming_damage(path, "not a readable zip archive", _WAY_OUT):
         return ZipFile(path)
