@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from gipkg.datasets.modelnet import ModelNet10
 from gipkg.datasets.shrec11 import Shrec11
 from gipkg.plugin_refs import BUILTINS
 from tests.cli.commands import records, run, run_well
@@ -62,6 +63,20 @@ def test_check_names_what_is_damaged_or_missing(root: Path) -> None:
     assert "nonrigid3d_mat.tar.gz: no such file" in result.stderr
     assert "2 of 3 failed" in result.stderr
     assert result.stdout.startswith("articulated -> 200 shapes in 10 classes")
+
+
+def test_a_folder_in_place_of_its_archive_is_at_hand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ModelNet10, "sizes", {"train": 1, "test": 1})
+    for part, number in (("train", 1), ("test", 2)):
+        folder = tmp_path / "modelnet10/ModelNet10/chair" / part
+        folder.mkdir(parents=True)
+        (folder / f"chair_{number:04}.off").write_text("OFF 0 0 0\n")
+    listed = records(run_well("data", "list", "--data-root", tmp_path, "--json"))
+    assert next(one for one in listed if one["database"] == "modelnet10")["at_hand"]
+    checked = run_well("data", "check", "modelnet10", "--data-root", tmp_path)
+    assert "whole: a folder without checksums" in checked.stdout
 
 
 def test_fetch_says_where_to_get_what_has_no_address(root: Path) -> None:
