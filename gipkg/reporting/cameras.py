@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+_STANDING = (1.0, -2.0, 0.6)
+"""Direction from a shape that stands upright to the eye."""
+
 
 @dataclass(frozen=True, slots=True)
 class Camera:
@@ -66,6 +69,16 @@ def camera_on(
     width, height, _ = (high - low) / 2
     half_height = max(height, width / aspect) / (1 - 2 * margin)
     return Camera((low + high) / 2 @ axes, forward, axes[1], float(half_height))
+
+
+def standing_camera(points: NDArray[np.floating]) -> Camera:
+    """Look from the front, a little from the right and from above, at points with z upward.
+
+    Parameters
+    ----------
+    points : (N, 3) array
+    """
+    return camera_on(points, _STANDING, up=[0, 0, 1])
 
 
 def principal_camera(

@@ -13,7 +13,7 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from gipkg.reporting import rendering
-from gipkg.reporting.cameras import camera_on, principal_camera
+from gipkg.reporting.cameras import camera_on, principal_camera, standing_camera
 from gipkg.reporting.rendering import Arrows, Lines, Surface, render, render_mesh
 
 RED, GREEN, BLUE = np.eye(3)
@@ -98,6 +98,17 @@ def test_lines_and_arrows_are_hidden_by_what_is_in_front() -> None:
     rows, columns = np.nonzero(dominated_by(hidden, 2))
     assert columns.min() > 100
     assert np.ptp(rows) == pytest.approx(0.5 * unit, rel=0.1)
+
+
+def test_what_stands_is_seen_standing_from_the_front_and_above() -> None:
+    points = np.random.default_rng(0).normal(size=(50, 3)) * [4, 3, 1]
+    camera = standing_camera(points)
+    right, upward, forward = camera.axes
+    assert upward[2] > 0.8
+    assert right[2] == pytest.approx(0)
+    assert forward[1] < -0.5 < 0.2 < forward[2]
+    seen = (points - camera.centre) @ camera.axes.T
+    assert np.abs(seen[:, :2]).max() < camera.half_height
 
 
 def test_the_principal_camera_follows_the_surface() -> None:

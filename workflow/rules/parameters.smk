@@ -118,6 +118,7 @@ def figure_params(figure):
     return {
         "config": chosen,
         "shapes": [subject["shape"] for subject in subjects],
+        "databases": [subject["database"] for subject in subjects],
         "size": config["figures"]["size"],
         "plugins": {
             "dataset": picked(DATASETS, [subject["database"] for subject in subjects]),

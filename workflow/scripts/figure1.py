@@ -12,6 +12,7 @@ from subject import parametrizers, read_surface, write_figure
 
 job.start(snakemake)
 (parametrizer,) = parametrizers(snakemake).values()
+databases = snakemake.params.plugins["dataset"]
 
 
 def imaged(number: int) -> figure1.Imaged:
@@ -19,7 +20,9 @@ def imaged(number: int) -> figure1.Imaged:
     surface = read_surface(snakemake, number)
     mesh = mesh_of(surface)
     sphere = parametrizer.parametrize(mesh)
-    return figure1.image(mesh, surface["mask"], sphere, snakemake.params.size)
+    name = snakemake.params.databases[number]
+    upright = job.plugin("dataset", databases[name]).upright is not None
+    return figure1.image(mesh, surface["mask"], sphere, snakemake.params.size, upright=upright)
 
 
 whole, holed = imaged(0), imaged(1)

@@ -19,7 +19,8 @@ for number, shape in progress(list(enumerate(snakemake.params.shapes)), "page/sc
     surface = read_surface(snakemake, number, section="page.shapes")
     mesh = mesh_of(surface)
     operators = Operators(mesh, snakemake.params.eigenpairs, mask=surface["mask"])
-    note = [plugins["dataset", snakemake.params.databases[number]].summary]
+    database = plugins["dataset", snakemake.params.databases[number]]
+    note, upright = [database.summary], database.upright is not None
     spheres, channels = {}, {}
     for (kind, name), plugin in plugins.items():
         if kind == "parametrizer":
@@ -32,5 +33,5 @@ for number, shape in progress(list(enumerate(snakemake.params.shapes)), "page/sc
             columns = zip(plugin.channels(), values.T, strict=True)
             channels |= {f"{name}: {channel}": column for channel, column in columns}
     channels["topological mask"] = surface["mask"]
-    scenes.append(as_data(Scene(shape, "; ".join(note), mesh, spheres, channels)))
+    scenes.append(as_data(Scene(shape, "; ".join(note), mesh, spheres, channels, upright)))
 write_json(Path(snakemake.output[0]), scenes, sealed=True)

@@ -16,7 +16,7 @@ from gipkg.descriptors.operators import Operators
 from gipkg.evaluation.surface_distance import surface_distance
 from gipkg.images.lookup import lookup
 from gipkg.images.reconstruct import reconstruct
-from gipkg.reporting.cameras import Camera, principal_camera
+from gipkg.reporting.cameras import Camera, principal_camera, standing_camera
 from gipkg.reporting.colours import category, diverging, sequential
 from gipkg.reporting.figures.appearance import facing
 from gipkg.reporting.figures.layout import page, panel, pixels
@@ -122,7 +122,12 @@ class Imaged:
 
 
 def image(
-    mesh: trimesh.Trimesh, mask: NDArray[np.bool_], sphere: NDArray[np.float64], size: int
+    mesh: trimesh.Trimesh,
+    mask: NDArray[np.bool_],
+    sphere: NDArray[np.float64],
+    size: int,
+    *,
+    upright: bool = False,
 ) -> Imaged:
     """Make the geometry images of a shape, turned as it is seen.
 
@@ -136,8 +141,11 @@ def image(
         The map of the mesh.
     size : int
         Pixels along a side.
+    upright : bool
+        The z axis points up, and is to be seen so.
     """
-    camera = principal_camera(np.asarray(mesh.vertices))
+    look_at = standing_camera if upright else principal_camera
+    camera = look_at(np.asarray(mesh.vertices))
     spherical_map = SphericalMap(mesh, sphere)
     located = lookup(spherical_map, size, facing(spherical_map, camera))
     curvatures = Curvature.model_validate({}).describe(mesh, Operators(mesh))

@@ -16,7 +16,7 @@ from gipkg.images.cuts import TURNS, UPRIGHT_TURNS, standard_cuts, upright_cuts
 from gipkg.images.lookup import PixelLookup, lookup
 from gipkg.images.octahedron import sphere_to_square
 from gipkg.images.padding import pad
-from gipkg.reporting.cameras import Camera, camera_on, principal_camera
+from gipkg.reporting.cameras import Camera, principal_camera, standing_camera
 from gipkg.reporting.colours import CUT, INK, sequential
 from gipkg.reporting.cut_lines import cut_lines
 from gipkg.reporting.figures.appearance import shaded, tip_colours, turned_as_seen
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
 _SIDE = 1.5
 """Width and height of a picture, in inches."""
-_STANDING = (1.0, -2.0, 0.6)
-"""Direction from a shape that stands upright to the eye."""
 AXES = ("+z", "-z", "+x", "-x", "+y", "-y")
 """Polar axes in the order of :func:`gipkg.images.cuts.standard_cuts`; z is to the eye."""
 UP = "up"
@@ -165,7 +163,7 @@ def cut_upright(shape: str, mesh: trimesh.Trimesh, sphere: NDArray[np.float64], 
     return Cuts(
         shape,
         spherical_map,
-        camera_on(vertices, _STANDING, up=[0, 0, 1]),
+        standing_camera(vertices),
         {"top": (int(downward[0]), top)},
         sequential(vertices[:, 2]),
         cuts,

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from gipkg.api import SphericalMap
 from gipkg.evaluation.distortion import Distortion, distortion
-from gipkg.reporting.cameras import principal_camera
+from gipkg.reporting.cameras import principal_camera, standing_camera
 from gipkg.reporting.figures.appearance import as_seen, facing
 from gipkg.surfaces.areas import at_vertices
 
@@ -37,6 +37,8 @@ class Scene:
         Parametrizer -> unit vectors (V, 3).
     channels : mapping
         Name -> values (V,).
+    upright : bool
+        The z axis points up, and is to be seen so.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Scene:
     mesh: trimesh.Trimesh
     spheres: Mapping[str, NDArray[np.float64]]
     channels: Mapping[str, NDArray[np.floating]]
+    upright: bool = False
 
 
 def as_data(scene: Scene) -> dict[str, Any]:
@@ -54,7 +57,8 @@ def as_data(scene: Scene) -> dict[str, Any]:
     comes with it, in the order of the vertices (`RATIO`).
     """
     faces = np.asarray(scene.mesh.faces)
-    camera = principal_camera(np.asarray(scene.mesh.vertices))
+    look_at = standing_camera if scene.upright else principal_camera
+    camera = look_at(np.asarray(scene.mesh.vertices))
     seen = as_seen(scene.mesh, camera)
     seen = seen / np.linalg.norm(seen, axis=1).max()
     coordinates = dict(zip("xyz", seen.T, strict=True))

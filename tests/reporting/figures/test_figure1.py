@@ -38,6 +38,16 @@ def test_the_pixels_are_the_shape(imaged: figure1.Imaged) -> None:
     assert height[inside].max() < 3.5 < height[outside].min()
 
 
+def test_what_stands_upright_is_seen_so(ellipsoid_map: SphericalMap) -> None:
+    mesh, mask = ellipsoid_map.mesh, np.ones(len(ellipsoid_map.mesh.vertices), bool)
+    standing, principal = (
+        figure1.image(mesh, mask, ellipsoid_map.sphere, SIZE, upright=upright).camera
+        for upright in (True, False)
+    )
+    assert standing.towards_eye == pytest.approx(np.array([1, -2, 0.6]) / np.sqrt(5.36))
+    assert abs(principal.towards_eye) == pytest.approx([1, 0, 0], abs=1e-6)
+
+
 def test_an_ellipsoid_is_most_curved_at_its_long_end(imaged: figure1.Imaged) -> None:
     larger, smaller = imaged.curvatures
     assert (larger >= smaller).all()

@@ -43,3 +43,15 @@ def test_a_scene_is_the_shape_turned_and_scaled_with_its_sphere(
     assert list(channels) == ["weight", "x", "y", "z"]
     assert channels["weight"] == pytest.approx(weight)
     assert channels["y"] == pytest.approx(vertices[:, 1])
+
+
+@pytest.mark.parametrize("upright", [True, False])
+def test_a_shape_of_an_upright_database_stands_however_long_it_is(
+    ellipsoid_map: SphericalMap, upright: bool
+) -> None:
+    lying = ellipsoid_map.mesh.copy()
+    lying.vertices = lying.vertices[:, [2, 0, 1]]
+    data = as_data(Scene("egg", "", lying, {}, {}, upright))
+    upward = numbers(data["vertices"]).reshape(-1, 3)[:, 1]
+    like = [abs(np.corrcoef(upward, axis)[0, 1]) for axis in lying.vertices.T]
+    assert np.argmax(like) == (2 if upright else 0)
