@@ -46,6 +46,7 @@ def newton_step(
     areas: NDArray[np.float64],
     weights: NDArray[np.float64],
     diagram: PowerDiagram,
+    longest: float = 1.0,
 ) -> Step | None:
     """Bring the areas of cells closer to those that are wanted.
 
@@ -58,6 +59,8 @@ def newton_step(
     weights : (N,) float64 array
     diagram : PowerDiagram
         Of the sites with these weights; every site has a cell.
+    longest : float
+        Length of the step that is tried first; 1 is Newton's own.
 
     Returns
     -------
@@ -68,7 +71,7 @@ def newton_step(
     asked *= 4 * np.pi / asked.sum()
     direction = _direction(diagram, asked)
     least = _KEPT * np.minimum(diagram.areas, asked)
-    length = min(1.0, _FARTHEST / np.abs(direction).max(initial=_FARTHEST))
+    length = min(longest, _FARTHEST / np.abs(direction).max(initial=_FARTHEST))
     while length > _SHORTEST_STEP:
         reached = weights + length * direction
         candidate = power_diagram(np.exp(reached)[:, None] * sites)

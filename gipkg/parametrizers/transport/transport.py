@@ -85,11 +85,13 @@ def _stages(
         owners, wanted, diagram = _gather(sites, areas, weights, present)
         yield _stage(diagram, wanted, owners, 0.0)
         enough = tolerance if len(present) == len(sites) else _ROUGH
-        before, now = np.inf, _misplaced(diagram, wanted)
+        before, now, longest = np.inf, _misplaced(diagram, wanted), 1.0
         while enough < now < before:
-            step = newton_step(sites[present], wanted, weights[present], diagram)
+            step = newton_step(sites[present], wanted, weights[present], diagram, longest)
             if step is None:
                 break
+            # Every length that is tried costs a hull, and the next one is seldom much longer.
+            longest = min(1.0, 2 * step.length)
             weights[present], diagram = step.weights, step.diagram
             if not step.kept.all():
                 present = present[step.kept]
