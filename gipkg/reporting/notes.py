@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from gipkg.api import Dataset, Plugin, Protocol, Shape
@@ -103,13 +103,28 @@ def missing_note(who: str, database: str, failures: Mapping[str, str]) -> str:
     )
 
 
-def seeds_note(seeds: Mapping[str, Sequence[int]]) -> str:
-    """Say what mean and deviation are taken over: the seeds of every database."""
-    taken = "; ".join(
-        f"{', '.join(map(str, numbers))} ({literal(name)})" for name, numbers in seeds.items()
+def seeds_note(seeds: Mapping[str, Sequence[int]], official: Collection[str] = ()) -> str:
+    """Say what mean and deviation are taken over: the seeds of every database.
+
+    Parameters
+    ----------
+    seeds : mapping
+        Database -> seeds.
+    official : collection of str
+        The databases whose split is given, so that seeds are of what is learned alone.
+    """
+    drawn, given = (
+        "; ".join(
+            f"{', '.join(map(str, numbers))} ({literal(name)})"
+            for name, numbers in seeds.items()
+            if (name in official) == of_official
+        )
+        for of_official in (False, True)
     )
+    splits = [f"Random splits from the seeds {drawn}"] if drawn else []
+    splits += [f"Official split, trained from the seeds {given}"] if given else []
     return (
-        f"Random splits from the seeds {taken}; sample standard deviation. "
+        f"{'. '.join(splits)}. Deviations are those of a sample. "
         "Accuracy: one prediction a test shape, pooled over its views. mAP: every test shape "
         "queries all the other test shapes, by the L2 distance or by the method's own."
     )

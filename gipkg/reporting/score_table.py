@@ -99,8 +99,9 @@ def read_reference(path: Path) -> Reference:
 
 
 def own_columns(columns: Iterable[Mapping[str, Any]]) -> list[str]:
-    """Return the headings of the columns, as configured, that are set against the paper's own."""
-    return [column["column"] for column in columns if column.get("paper") == OWN]
+    """Return the headings of the columns that are set against the paper's own, its name first."""
+    own = (column["column"] for column in columns if column.get("paper") == OWN)
+    return sorted(own, key=lambda heading: heading != OWN)
 
 
 def as_csv(rows: Sequence[Row], columns: Sequence[str]) -> tuple[list[str], list[list[str]]]:
@@ -159,7 +160,7 @@ def as_markdown(
     lines = [
         f"# {title}",
         "",
-        "Accuracy in % / mean average precision: mean ± standard deviation over random splits.",
+        "Accuracy in % / mean average precision: mean ± standard deviation over splits.",
         "The paper's own figures stand below ours, in italics.",
         "",
         markdown_line(["", *columns]),

@@ -60,7 +60,11 @@ def test_shapes_with_one_fault_are_named_together() -> None:
 
 def test_the_seeds_of_every_database_are_said() -> None:
     note = notes.seeds_note({"real": [0, 1, 2], "made": [0]})
-    assert note.startswith("Random splits from the seeds 0, 1, 2 (`real`); 0 (`made`);")
+    assert note.startswith("Random splits from the seeds 0, 1, 2 (`real`); 0 (`made`). Dev")
+    note = notes.seeds_note({"real": [0, 1], "given": [0]}, official={"given"})
+    assert note.startswith("Random splits from the seeds 0, 1 (`real`). Official split, trained ")
+    alone = notes.seeds_note({"given": [0]}, official={"given"})
+    assert alone.startswith("Official split, trained from the seeds 0 (`given`). Dev")
 
 
 def test_what_takes_part_is_named_class_by_class_where_not_all_does() -> None:

@@ -7,7 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from gipkg.reporting.score_table import Cell, Reference, Row, as_csv, as_markdown, read_reference
+from gipkg.reporting.score_table import (
+    Cell,
+    Reference,
+    Row,
+    as_csv,
+    as_markdown,
+    own_columns,
+    read_reference,
+)
 
 REFERENCES = Path(__file__).resolve().parents[2] / "results" / "reference"
 
@@ -34,6 +42,12 @@ def test_the_csv_has_a_column_for_every_figure() -> None:
         ["shrec11", "SHREC1", "91.00", "1.41", "0.5500", "0.0707", "1.00", "", "0.1000", ""],
         ["made", "Made1", "50.00", "0.00", "0.2500", "0.0000", "2.00", "", "0.2000", ""],
     ]
+
+
+def test_of_several_columns_like_the_papers_own_the_one_of_its_name_comes_first() -> None:
+    named = {"As printed": "Ours", "Ours": "Ours", "Conf": "Conf", "New": None}
+    columns = [{"column": heading, "paper": paper} for heading, paper in named.items()]
+    assert own_columns(columns) == ["Ours", "As printed"]
 
 
 def test_the_papers_figures_stand_below_their_own_row_and_column_only() -> None:

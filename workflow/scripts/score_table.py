@@ -53,7 +53,12 @@ text += [
     for heading in headings
     if failures[database][heading]
 ]
-text.append(notes.seeds_note(seeds))
+official = {
+    database
+    for database, splits in protocols.items()
+    if all(protocol.train_per_class == "official" for protocol in splits.values())
+}
+text.append(notes.seeds_note(seeds, official))
 text += [notes.ahead_note(table, own) for own in score_table.own_columns(columns)[:1]]
 
 timings = map(read_sealed, snakemake.input.timings)
