@@ -18,6 +18,7 @@ from gipkg.formats.arrays import read_arrays
 from gipkg.learning.classifier import Classifier, train_classifier
 from gipkg.learning.config import NetworkConfig, TrainingConfig
 from gipkg.learning.device import choose_device, computes_in_bfloat16, reproducible
+from gipkg.learning.feature_maps import feature_map_size, padded_size
 from gipkg.learning.network import ImageNetwork
 from gipkg.learning.prediction import Prediction
 from gipkg.learning.views import Layout, Scale, fit_scale, stack, views_of
@@ -153,11 +154,10 @@ def train_model(
         device is absent, or the training diverged.
     DamagedFileError
         The checkpoint cannot be read.
-    ValueError
-        The images are no larger than the network's margin.
     """
     network, training = network or NetworkConfig(), training or TrainingConfig()
     size = images[ids[0]].shape[-1]
+    feature_map_size(network, padded_size(network, size))  # before anything is laid out
     layout = Layout(network.margin, permutation(size, seed) if training.shuffle_pixels else None)
     chosen = choose_device(device)
     # As the network computes, so that no step has to convert them.
@@ -206,7 +206,7 @@ def load_model(path: Path, device: str = "auto") -> Model:
             for name, array in arrays.items()
             if name.startswith(WEIGHTS)
         }
-        shape = channels, size + 2 * config.margin, len(classes)
+        shape = channels, padded_size(config, size), len(classes)
         with torch.device("meta"):  # takes no memory, until the weights are known to be as many
             ImageNetwork(config, *shape).load_state_dict(weights, assign=True)
         network = ImageNetwork(config, *shape)

@@ -5,39 +5,15 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from gipkg.errors import LearningError
 from gipkg.learning.config import NetworkConfig
-
-FIRST_KERNEL, KERNEL = 5, 3
-FIRST_STRIDE = 2
-POOL = 2
-
-
-def feature_map_size(config: NetworkConfig, size: int) -> int:
-    """Side of the last feature map for square inputs of side `size`: 2 for 64 by default.
-
-    Raises
-    ------
-    LearningError
-        Nothing is left of so small an image.
-    """
-    side, kernel, stride = size, FIRST_KERNEL, FIRST_STRIDE
-    for number, block in enumerate(config.blocks):
-        for _ in block:
-            side = (side - kernel) // stride + 1
-            kernel, stride = KERNEL, 1
-        if _is_pooled_locally(config, number):
-            side //= POOL
-        if side < 1:
-            raise LearningError(
-                f"images of {size} pixels a side, padding included, are too small for the "
-                "network: use larger images, a wider margin or fewer blocks"
-            )
-    return side
-
-
-def _is_pooled_locally(config: NetworkConfig, block: int) -> bool:
-    return config.pooling == "local" or block < len(config.blocks) - 1
+from gipkg.learning.feature_maps import (
+    FIRST_KERNEL,
+    FIRST_STRIDE,
+    KERNEL,
+    POOL,
+    feature_map_size,
+    is_pooled_locally,
+)
 
 
 class ViewClassifier(nn.Module):
@@ -131,7 +107,7 @@ def _convolutions(config: NetworkConfig, channels: int) -> list[nn.Module]:
                 nn.ReLU(),
             ]
             inputs, kernel, stride = width, KERNEL, 1
-        if _is_pooled_locally(config, number):
+        if is_pooled_locally(config, number):
             # The two commute, and so the rectifier has a quarter of the pixels.
             layers.insert(-1, nn.MaxPool2d(POOL))
         else:

@@ -4,9 +4,9 @@ import pytest
 import torch
 from torch import nn
 
-from gipkg.errors import LearningError
 from gipkg.learning.config import NetworkConfig
-from gipkg.learning.network import ImageNetwork, feature_map_size
+from gipkg.learning.feature_maps import feature_map_size
+from gipkg.learning.network import ImageNetwork
 
 
 def test_the_network_is_that_of_the_paper() -> None:
@@ -66,11 +66,3 @@ def test_views_pooled_together_are_of_one_shape_and_in_no_order() -> None:
     assert torch.equal(network(views[order])[1], signatures)
     pooled = network.convolutions(views).amax(0, keepdim=True)
     assert torch.equal(network.signature(pooled), signatures)
-
-
-def test_images_that_are_too_small_are_refused() -> None:
-    assert feature_map_size(PRINTED, 43) == 1
-    with pytest.raises(LearningError, match="42 pixels"):
-        ImageNetwork(PRINTED, channels=1, size=42, classes=2)
-    with pytest.raises(LearningError, match="62 pixels"):
-        ImageNetwork(DEEP, channels=1, size=62, classes=2)

@@ -101,6 +101,20 @@ LEARNED = {"parametrizer": "authalic", "descriptors": ["hks"], "network": "shall
             ["networks.shallow", "epochs", ">= 1"],
         ),
         (
+            {"images": {"standard": {"size": 20}}},
+            [
+                "columns.",
+                "'shallow' on images 'standard'",
+                "28 pixels",
+                "too small",
+                "fewer blocks",
+            ],
+        ),
+        (
+            {"networks": {"shallow": {"network": {"margin": 60}}}},
+            ["columns.", "'shallow' on images 'standard'", "margin of 60"],
+        ),
+        (
             {"baselines": {"shapedna": {"plugin": "absent.py:Mine"}}},
             ["baselines.shapedna", "absent.py"],
         ),

@@ -16,6 +16,7 @@ def chosen_columns(table):
         if "network" in column:
             require_defined(f"{key}.network", column["network"], "networks")
             require_defined(f"{key}.images", column.get("images", "standard"), "images")
+            require_fit(key, column)
         name = slug(column["column"])
         if name in columns:
             raise WorkflowError(f"configuration, {key}: {name!r} names two columns")

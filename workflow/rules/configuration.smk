@@ -11,10 +11,11 @@ from snakemake.utils import min_version
 
 from gipkg import registry
 from gipkg.api import Protocol
-from gipkg.errors import PluginError, did_you_mean
+from gipkg.errors import LearningError, PluginError, did_you_mean
 from gipkg.fingerprints import fingerprint_module
 from gipkg.images.config import ImageConfig
 from gipkg.learning.config import NetworkConfig, TrainingConfig
+from gipkg.learning.feature_maps import feature_map_size, padded_size
 from gipkg.parameters import validated
 from gipkg.shards import shard_of
 from gipkg.surfaces.perturbations import PERTURBATIONS
@@ -79,6 +80,18 @@ def network(name):
         }
     except PluginError as error:
         raise WorkflowError(f"configuration, networks.{name}: {error}") from error
+
+
+def require_fit(key, column):
+    """Stop where a column's network would leave nothing of its images."""
+    chosen = NetworkConfig(**network(column["network"])["network"])
+    shown = column.get("images", "standard")
+    try:
+        feature_map_size(chosen, padded_size(chosen, image_config(shown)["size"]))
+    except LearningError as error:
+        raise WorkflowError(
+            f"configuration, {key}: network {column['network']!r} on images {shown!r}: {error}"
+        ) from error
 
 
 def image_config(name):
