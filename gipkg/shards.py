@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from gipkg.errors import DamagedFileError
 from gipkg.files import atomic, sha256_of, write_arrays, write_csv, write_text
+from gipkg.formats.arrays import array_names, read_arrays
 from gipkg.progress import progress
 from gipkg.zip_damage import naming_damage, require_whole_directory
 
@@ -91,11 +92,11 @@ class Shard(Mapping[str, dict[str, NDArray[Any]]]):
         DamagedFileError
             The file is not a whole shard.
         """
-        with naming_damage(path, *_DAMAGE), np.load(path, allow_pickle=False) as archive:
+        with naming_damage(path, *_DAMAGE):
             require_whole_directory(path)
-            failures = json.loads(str(archive[_FAILURES]))
+            failures = json.loads(str(read_arrays(path, [_FAILURES])[_FAILURES]))
             members: dict[str, tuple[str, ...]] = {}
-            for key in archive.files:
+            for key in array_names(path):
                 shape, slash, name = key.partition("/")
                 if slash:
                     members[unquote(shape)] = (*members.get(unquote(shape), ()), name)
@@ -111,9 +112,10 @@ class Shard(Mapping[str, dict[str, NDArray[Any]]]):
         DamagedFileError
             They are not in the file any more, or a checksum does not fit.
         """
-        names = self._members[shape_id]
-        with naming_damage(self.path, *_DAMAGE), np.load(self.path, allow_pickle=False) as archive:
-            return {unquote(name): archive[f"{_quote(shape_id)}/{name}"] for name in names}
+        names = {f"{_quote(shape_id)}/{name}": name for name in self._members[shape_id]}
+        with naming_damage(self.path, *_DAMAGE):
+            arrays = read_arrays(self.path, names)
+        return {unquote(names[key]): array for key, array in arrays.items()}
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.ids)

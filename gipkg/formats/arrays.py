@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import zipfile
+from collections.abc import Collection
 from pathlib import Path
 from tokenize import TokenError
 from typing import IO, Any
@@ -20,25 +21,46 @@ def read_array(path: Path) -> NDArray[Any]:
     Raises
     ------
     ValueError
-        It is none, holds Python objects, or says that it holds more than it does.
+        It is none, holds Python objects, or says that it holds more or less than it does.
     """
     with path.open("rb") as stream:
         return _read(stream, path.stat().st_size)
 
 
-def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """Read all arrays of an uncompressed ``.npz`` file, as :func:`gipkg.files.write_arrays` writes.
+def array_names(path: Path) -> tuple[str, ...]:
+    """Return the names of the arrays of an ``.npz`` file, in its order.
 
     Raises
     ------
     ValueError
-        It is none, is compressed, damaged or holds Python objects, or says that it holds more than
-        it does.
+        It is none.
+    """
+    with damage_as_value_error(), zipfile.ZipFile(path) as archive:
+        return tuple(name.removesuffix(".npy") for name in archive.namelist())
+
+
+def read_arrays(path: Path, names: Collection[str] | None = None) -> dict[str, NDArray[Any]]:
+    """Read arrays of an uncompressed ``.npz`` file, as :func:`gipkg.files.write_arrays` writes.
+
+    Parameters
+    ----------
+    path : Path
+    names : collection of str, optional
+        By default all.
+
+    Raises
+    ------
+    KeyError
+        One that is named is not there.
+    ValueError
+        It is none, is compressed, damaged or holds Python objects, or says that it holds more or
+        less than it does.
     """
     arrays = {}
     free = path.stat().st_size
     with damage_as_value_error(), zipfile.ZipFile(path) as archive:
-        for member in archive.infolist():
+        asked = None if names is None else [archive.getinfo(f"{name}.npy") for name in names]
+        for member in archive.infolist() if asked is None else asked:
             if member.compress_type != zipfile.ZIP_STORED:
                 raise ValueError(f"{member.filename} is compressed; write it with numpy.savez")
             with archive.open(member) as stream:
@@ -69,5 +91,8 @@ def _read(stream: IO[bytes], available: int) -> NDArray[Any]:
     content = stream.read(size)
     if len(content) != size:
         raise ValueError("it ends early")
+    # At the end of a member its checksum is tested, which a header that asks for less would avoid.
+    if stream.read(1):
+        raise ValueError("it holds more than its header says")
     array = np.frombuffer(content, dtype)
-    return array.reshape(shape, order="F" if by_columns else "C").copy()
+    return array.reshape(shape, order="F" if by_columns else "C").copy(order="K")

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from gipkg.files import write_arrays
-from gipkg.formats.arrays import read_array, read_arrays
+from gipkg.formats.arrays import array_names, read_array, read_arrays
+from tests.support.zip_bits import with_a_changed_bit_of_a_header
 
 DTYPES = st.sampled_from(["<f8", ">f4", "<i4", "|u1", "?"])
 ARRAYS = arrays.arrays(DTYPES, arrays.array_shapes(min_dims=0, max_dims=3, min_side=0))
@@ -36,6 +37,30 @@ def test_several_arrays_in_one_file(tmp_path: Path) -> None:
     read = read_arrays(tmp_path / "a.npz")
     assert set(read) == {"one", "two"}
     np.testing.assert_array_equal(read["two"], np.eye(2))
+    assert array_names(tmp_path / "a.npz") == ("one", "two")
+    assert set(read_arrays(tmp_path / "a.npz", ["two"])) == {"two"}
+    with pytest.raises(KeyError, match="three"):
+        read_arrays(tmp_path / "a.npz", ["three"])
+
+
+def test_a_changed_bit_of_a_header_is_found_even_where_it_asks_for_less(tmp_path: Path) -> None:
+    # Of more than is read ahead, so that the checksum is not tested by chance.
+    path = tmp_path / "a.npz"
+    write_arrays(path, {"long": np.arange(6000.0).reshape(2000, 3)})
+    bits = list(with_a_changed_bit_of_a_header(path.read_bytes()))
+    assert len(bits) == 128 * 8
+    for damaged in bits:
+        path.write_bytes(damaged)
+        with pytest.raises(ValueError, match=r"."):
+            read_arrays(path)
+
+
+def test_what_follows_an_array_is_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", np.eye(3))
+    with (tmp_path / "a.npy").open("ab") as stream:
+        stream.write(b"more")
+    with pytest.raises(ValueError, match="more than its header says"):
+        read_array(tmp_path / "a.npy")
 
 
 def test_objects_are_refused_and_never_made(tmp_path: Path) -> None:

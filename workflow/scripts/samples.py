@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from gipkg.files import read_csv, write_arrays, write_json
+from gipkg.formats.arrays import read_arrays
 from gipkg.learning.prediction import Prediction
 from gipkg.shards import content_key
 from gipkg.zip_damage import naming_damage, require_whole_directory
@@ -91,12 +92,10 @@ def read_prediction(path: str) -> Prediction:
     DamagedFileError
         The file is not a whole prediction.
     """
-    with (
-        naming_damage(Path(path), "not a whole prediction", "run the command again"),
-        np.load(path, allow_pickle=False) as arrays,
-    ):
+    with naming_damage(Path(path), "not a whole prediction", "run the command again"):
         # Distances, which not every baseline has, are not to go unnoticed.
         require_whole_directory(Path(path))
+        arrays = read_arrays(Path(path))
         return Prediction(
             tuple(arrays["ids"].tolist()),
             tuple(arrays["classes"].tolist()),
