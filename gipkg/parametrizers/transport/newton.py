@@ -23,7 +23,8 @@ _KEPT = 0.1
 """A cell with less than this share of its area, and of the area asked for, is given up."""
 _GIVEN_UP = 1e-3
 """Share of the cells that a step may give up once damping alone has not kept them."""
-_SHORT_STEP = 0.125
+SHORT_STEP = 0.125
+"""From here on a step may give up cells; longer ones are to be tried first."""
 _FARTHEST = 1.0
 """Most by which a step changes a weight."""
 _SHORTEST_STEP = 1e-3
@@ -77,7 +78,7 @@ def newton_step(
         candidate = power_diagram(np.exp(reached)[:, None] * sites)
         # A negative slope is of a cell that reaches farther from its site than a right angle.
         kept = (candidate.areas > least) & (candidate.slopes.min() >= 0)
-        allowed = _GIVEN_UP * len(sites) if length <= _SHORT_STEP else 0
+        allowed = _GIVEN_UP * len(sites) if length <= SHORT_STEP else 0
         if np.count_nonzero(~kept) <= allowed:
             return Step(reached, candidate, kept, length)
         length /= 2

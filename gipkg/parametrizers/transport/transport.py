@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from gipkg.api import Callback, Iteration
-from gipkg.parametrizers.transport.newton import newton_step
+from gipkg.parametrizers.transport.newton import SHORT_STEP, newton_step
 from gipkg.parametrizers.transport.power_diagram import PowerDiagram, power_diagram
 
 _LEAST_AREA = 1e-10
@@ -91,7 +91,7 @@ def _stages(
             if step is None:
                 break
             # Every length that is tried costs a hull, and the next one is seldom much longer.
-            longest = min(1.0, 2 * step.length)
+            longest = min(1.0, max(2 * step.length, 2 * SHORT_STEP))
             weights[present], diagram = step.weights, step.diagram
             if not step.kept.all():
                 present = present[step.kept]
