@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import lzma
 import tarfile
+import zlib
 from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -61,7 +62,7 @@ def _read_members(path: Path, size: int, modified: int, suffix: str) -> Mapping[
                 file = archive.extractfile(member)
                 assert file is not None  # a regular file
                 contents[member.name] = file.read()
-    except (tarfile.TarError, EOFError, gzip.BadGzipFile, lzma.LZMAError) as error:
+    except (tarfile.TarError, EOFError, gzip.BadGzipFile, lzma.LZMAError, zlib.error) as error:
         raise MeshFormatError(
             path, f"not a readable tar archive ({error}); fetch it again"
         ) from error

@@ -160,7 +160,7 @@ def as_markdown(
     lines = [
         f"# {title}",
         "",
-        "Accuracy in % / mean average precision: mean ± standard deviation over splits.",
+        "Accuracy in % / mean average precision: mean ± standard deviation over seeds.",
         "The paper's own figures stand below ours, in italics.",
         "",
         markdown_line(["", *columns]),
