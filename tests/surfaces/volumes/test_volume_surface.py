@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 import trimesh
@@ -12,29 +10,16 @@ from hypothesis import strategies as st
 
 from gipkg.api import Volume
 from gipkg.errors import UnsupportedMesh
-from gipkg.surfaces import Surface, prepare, volume_surface
+from gipkg.surfaces import prepare, volume_surface
 from gipkg.surfaces.volumes import assembly
 from gipkg.surfaces.volumes.fairing import fair
 from gipkg.surfaces.volumes.tetrahedra import lattice_surface
 from gipkg.surfaces.volumes.topology import count_topology
+from tests.surfaces.prepared import assert_sound, step_names
 from tests.surfaces.solids import assert_genus_zero, sphere
 from tests.surfaces.volumes.solids import ball, blobs, grid, ring
 
 CENTRE = 19.5
-
-
-def step_names(surface: Surface) -> list[str]:
-    return [step.name for step in surface.report.steps]
-
-
-def assert_sound(surface: Surface) -> None:
-    assert_genus_zero(surface.mesh)
-    assert surface.mask.shape == (len(surface.mesh.vertices),)
-    assert surface.mask.dtype == bool
-    report = json.loads(json.dumps(surface.report.as_dict()))
-    assert report["after"]["vertices"] == len(surface.mesh.vertices)
-    assert report["after"]["genus"] == 0
-    assert not prepare(surface.mesh).report.changed
 
 
 @given(
