@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable
-
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from gipkg.api import Callback, Iteration
 from gipkg.cholesky import Cholesky
+from gipkg.parametrizers.lbfgs import Memory, Preconditioner, Vectors
 from gipkg.parametrizers.unconstrained.energy import ProjectedEnergy
 from gipkg.surfaces.areas import at_vertices
 
@@ -19,11 +17,6 @@ _MEMORY = 8
 _SUFFICIENT = 1e-4
 """Share of the decrease that the slope promises which a step must bring (Armijo)."""
 _SHORTEST_STEP = 1e-10
-_CURVED = 1e-12
-"""Least cosine of a step and its change of the gradient for the pair to be remembered."""
-
-Vectors = NDArray[np.float64]
-Preconditioner = Callable[[Vectors], Vectors]
 
 
 def minimize(
@@ -61,9 +54,9 @@ def minimize(
     value, gradient = energy(vectors)
     if callback:
         callback(Iteration(0, sphere, value, 0.0))
-    memory: deque[tuple[Vectors, Vectors]] = deque(maxlen=_MEMORY)
+    memory = Memory(_MEMORY)
     for number in range(1, max_iterations + 1):
-        step = -_inverse_hessian(gradient, memory, precondition)
+        step = -memory.inverse_hessian(gradient, _scaled(precondition, memory))
         slope = float(np.vdot(gradient, step))
         length = _longest(energy, vectors, step)
         while length > _SHORTEST_STEP:
@@ -74,9 +67,7 @@ def minimize(
             length /= 2
         else:
             break
-        pair = moved - vectors, new_gradient - gradient
-        if np.vdot(*pair) > _CURVED * np.linalg.norm(pair[0]) * np.linalg.norm(pair[1]):
-            memory.append(pair)
+        memory.add(moved - vectors, new_gradient - gradient)
         gain = (value - reached) / value
         vectors, value, gradient = moved, reached, new_gradient
         sphere = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
@@ -98,23 +89,13 @@ def _longest(energy: ProjectedEnergy, vectors: Vectors, step: Vectors) -> float:
     return float(min(1.0, 0.5 * clearance / farthest)) if farthest > 0 else 0.0
 
 
-def _inverse_hessian(
-    gradient: Vectors, memory: deque[tuple[Vectors, Vectors]], precondition: Preconditioner
-) -> Vectors:
-    """Two-loop recursion (Nocedal & Wright, Numerical Optimization, 2006, Algorithm 7.4)."""
-    product = gradient.copy()
-    shares = []
-    for step, change in reversed(memory):
-        share = np.vdot(step, product) / np.vdot(step, change)
-        product -= share * change
-        shares.append(share)
-    product = precondition(product)
-    if memory:
-        step, change = memory[-1]
-        product *= np.vdot(step, change) / np.vdot(change, precondition(change))
-    for (step, change), share in zip(memory, reversed(shares), strict=True):
-        product += (share - np.vdot(change, product) / np.vdot(step, change)) * step
-    return product
+def _scaled(precondition: Preconditioner, memory: Memory) -> Preconditioner:
+    """Scale a preconditioner to the curvature along the last step."""
+    if memory.latest is None:
+        return precondition
+    step, change = memory.latest
+    scale = np.vdot(step, change) / np.vdot(change, precondition(change))
+    return lambda vectors: precondition(vectors) * scale
 
 
 def laplacian_preconditioner(

@@ -52,17 +52,26 @@ class MapEnergy:
 
     def value(self, sphere: NDArray[np.float64]) -> float:
         """Energy of a map (V, 3); infinite if a face is flipped."""
-        return float(
-            _value(
-                sphere,
-                self.faces,
-                self.targets,
-                self.weights,
-                self.cotangents,
-                self.shape,
-                self.shifts,
-            )
+        return self.value_and_gradient(sphere)[0]
+
+    def value_and_gradient(self, sphere: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+        """Energy of a map (V, 3), and its gradient (V, 3) in space.
+
+        The gradient has a part along the radius that means nothing, and none that means anything
+        where the energy is infinite.
+        """
+        gradient = np.zeros_like(sphere)
+        value = _value_and_gradient(
+            sphere,
+            self.faces,
+            self.targets,
+            self.weights,
+            self.cotangents,
+            self.shape,
+            self.shifts,
+            gradient,
         )
+        return value, gradient
 
     def derivatives(
         self, sphere: NDArray[np.float64], basis: NDArray[np.float64]
@@ -98,7 +107,9 @@ class MapEnergy:
 
 
 @compiled
-def _value(sphere, faces, targets, weights, cotangents, shape, shifts):  # type: ignore[no-untyped-def]
+def _value_and_gradient(  # type: ignore[no-untyped-def]
+    sphere, faces, targets, weights, cotangents, shape, shifts, gradient
+):
     energy, total = 0.0, 0.0
     for f in range(len(faces)):
         p, q, r = sphere[faces[f, 0]], sphere[faces[f, 1]], sphere[faces[f, 2]]
@@ -112,11 +123,31 @@ def _value(sphere, faces, targets, weights, cotangents, shape, shifts):  # type:
         rp = b0 * b0 + b1 * b1 + b2 * b2
         qr = (a0 - b0) ** 2 + (a1 - b1) ** 2 + (a2 - b2) ** 2
         # Chords |q - p|² of unit vectors give the cosines 1 - |q - p|² / 2 accurately.
-        area = 2 * np.arctan2(triple, 4 - 0.5 * (pq + qr + rp))
+        cosines = 4 - 0.5 * (pq + qr + rp)
+        area = 2 * np.arctan2(triple, cosines)
         dirichlet = cotangents[f, 0] * qr + cotangents[f, 1] * rp + cotangents[f, 2] * pq
-        energy += weights[f] * (area_residual(area / targets[f])[0] + shifts[f]) ** 2
+        residual, growth = area_residual(area / targets[f])
+        energy += weights[f] * (residual + shifts[f]) ** 2
         energy += shape * targets[f] * (0.5 * dirichlet / triple - 1)
         total += area
+        scale = 2 / (cosines * cosines + triple * triple)
+        push = 2 * weights[f] * (residual + shifts[f]) * growth / targets[f] * scale
+        conformal = shape * targets[f] / triple
+        # The slopes of det, of the cosines (in each corner the sum of the other two), and of D.
+        along = push * cosines - 0.5 * conformal * dirichlet / triple
+        across = -push * triple
+        for k in range(3):
+            i, j = (k + 1) % 3, (k + 2) % 3
+            x, y, z = sphere[faces[f, k]], sphere[faces[f, i]], sphere[faces[f, j]]
+            pull_y, pull_z = conformal * cotangents[f, j], conformal * cotangents[f, i]
+            for c in range(3):
+                d, e = (c + 1) % 3, (c + 2) % 3
+                gradient[faces[f, k], c] += (
+                    along * (y[d] * z[e] - y[e] * z[d])
+                    + across * (y[c] + z[c])
+                    + pull_y * (x[c] - y[c])
+                    + pull_z * (x[c] - z[c])
+                )
     if abs(total - 4 * np.pi) > _FULL_TURN:
         return np.inf
     return energy

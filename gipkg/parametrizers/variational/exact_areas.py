@@ -43,7 +43,7 @@ _MULTIPLIER_STEPS, _LEFT = 100, 1e-6
 
 @dataclass
 class _Iterate:
-    """A map, its energy, and the relative errors of all vertex areas but the last."""
+    """A map, its energy, and the relative errors of all vertex areas."""
 
     sphere: NDArray[np.float64]
     value: float
@@ -136,19 +136,21 @@ class _Search:
             shape=(count, len(faces)),
         )
         self._wanted = self._share @ areas
+        # One area follows from the others, with the sum of their errors: the largest bears it best.
+        self._equations = np.delete(np.arange(count), self._wanted.argmax())
         self._unknowns = (2 * faces[:, :, None] + np.arange(2)).reshape(len(faces), 6)
         self._damping, self._price = _START_DAMPING, 0.0
 
     def at(self, sphere: NDArray[np.float64]) -> _Iterate:
         reached = self._share @ signed_spherical_areas(sphere, self._energy.faces)
-        return _Iterate(sphere, self._energy.value(sphere), (reached / self._wanted - 1)[:-1])
+        return _Iterate(sphere, self._energy.value(sphere), reached / self._wanted - 1)
 
     def step(self, here: _Iterate) -> _Iterate | None:
         """Step towards less energy and smaller errors; None if damping leads to no such step."""
         basis, gradient, hessian, metric, jacobian = self._model(here)
         while self._damping < _MOST_DAMPING:
             curvature = hessian + self._damping * metric
-            step = _constrained_step(curvature, gradient, jacobian, here.errors)
+            step = _constrained_step(curvature, gradient, jacobian, here.errors[self._equations])
             if step is not None:
                 model = float(gradient @ step + 0.5 * step @ (curvature @ step))
                 found = self._searched(here, basis, step, model)
@@ -160,7 +162,9 @@ class _Search:
     def restore(self, here: _Iterate) -> _Iterate | None:
         """Meet the linearised areas by the least change of the map; None where that fails."""
         basis, gradient, hessian, metric, jacobian = self._model(here)
-        step = _constrained_step(hessian + metric, 0 * gradient, jacobian, here.errors)
+        step = _constrained_step(
+            hessian + metric, 0 * gradient, jacobian, here.errors[self._equations]
+        )
         length = 1.0
         while step is not None and length >= _SHORTEST_STEP:
             there = self.at(move(here.sphere, basis, length * step))
@@ -219,15 +223,14 @@ class _Search:
         return sp.csr_array((blocks.ravel(), (rows, columns)), shape=(size, size))
 
     def _jacobian(self, sphere: NDArray[np.float64], basis: NDArray[np.float64]) -> sp.csr_array:
-        """Slopes of the errors in the tangent coordinates, (V - 1, 2V)."""
+        """Slopes of all errors but one in the tangent coordinates, (V - 1, 2V)."""
         faces = self._energy.faces
         slopes = np.einsum("fkc,fkdc->fkd", _area_gradients(sphere, faces), basis[faces])
         by_face = sp.csr_array(
             (slopes.ravel(), self._unknowns.ravel(), 6 * np.arange(len(faces) + 1)),
             shape=(len(faces), 2 * len(sphere)),
         )
-        # One area follows from the others, so the last equation is left out.
-        return (sp.diags_array(1 / self._wanted) @ (self._share @ by_face)).tocsr()[:-1]
+        return (sp.diags_array(1 / self._wanted) @ (self._share @ by_face)).tocsr()[self._equations]
 
 
 def _constrained_step(

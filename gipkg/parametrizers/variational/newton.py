@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from gipkg.api import Callback, Iteration
 from gipkg.cholesky import Cholesky, NotPositiveDefinite
 from gipkg.compilation import compiled
+from gipkg.parametrizers.lbfgs import Preconditioner
 from gipkg.parametrizers.sphere.tangent import move, tangent_basis
 from gipkg.parametrizers.variational.energy import MapEnergy
 
@@ -86,7 +87,7 @@ class Descent:
         value = energy.value(sphere)
         self.damping = min(self.damping, _RESTART_DAMPING)
         if self.iterations == 0:
-            self._tell(sphere, value, 0.0)
+            self.tell(sphere, value, 0.0)
         for _ in range(max_iterations):
             basis = tangent_basis(sphere)
             gradient, *blocks = energy.derivatives(sphere, basis)
@@ -106,7 +107,7 @@ class Descent:
             gain = (value - reached) / abs(value)
             sphere, value = moved, reached
             self.iterations += 1
-            self._tell(sphere, value, 1.0)
+            self.tell(sphere, value, 1.0)
             if gain < tolerance:
                 break
             if ratio > _GOOD:
@@ -114,6 +115,36 @@ class Descent:
             elif ratio < _POOR:
                 self.damping *= 2
         return sphere
+
+    def preconditioner(
+        self, energy: MapEnergy, sphere: NDArray[np.float64], basis: NDArray[np.float64]
+    ) -> Preconditioner:
+        """Factorize the damped Hessian at a map, with more damping until it can be factorized.
+
+        Parameters
+        ----------
+        energy : MapEnergy
+        sphere : (V, 3) float64 array
+            Unit vectors, no flipped face.
+        basis : (V, 2, 3) float64 array
+            Orthonormal tangent vectors at every vertex.
+
+        Returns
+        -------
+        callable
+            Solves for a gradient (2V,), until the next system is factorized.
+        """
+        _, *blocks = energy.derivatives(sphere, basis)
+        hessian, metric = (_gather(block, self._slots, self._entries) for block in blocks)
+        while True:
+            try:
+                self._factor.factorize(hessian + self.damping * metric)
+            except NotPositiveDefinite:
+                if self.damping > _MOST_DAMPING:
+                    raise
+                self.damping *= 4
+            else:
+                return self._factor.solve
 
     def _step(
         self, values: NDArray[np.float64], gradient: NDArray[np.float64]
@@ -126,7 +157,8 @@ class Descent:
         step = -self._factor.solve(gradient)
         return step if gradient @ step < 0 else None
 
-    def _tell(self, sphere: NDArray[np.float64], value: float, step: float) -> None:
+    def tell(self, sphere: NDArray[np.float64], value: float, step: float) -> None:
+        """Tell the callback of the latest iteration."""
         if self.callback:
             self.callback(Iteration(self.iterations, sphere, value, step))
 

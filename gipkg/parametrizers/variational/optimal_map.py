@@ -38,6 +38,7 @@ def least_distorted_map(
     max_iterations: int,
     tolerance: float,
     rounds: int = 0,
+    face_tolerance: float = 0.0,
     exact_areas: bool = False,
     callback: Callback | None = None,
 ) -> NDArray[np.float64]:
@@ -55,10 +56,12 @@ def least_distorted_map(
     max_iterations : int
         Of the descent, before any rounds.
     tolerance : float
-        Relative decrease of the energy that ends the descent, and the rounds.
+        Relative decrease of the energy that ends the descent.
     rounds : int
         Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most, and with all faces
         weighed alike from there on.
+    face_tolerance : float
+        Standard deviation of the faces' area ratios at which the rounds end.
     exact_areas : bool
         End on exact areas of all vertices.
     callback : callable, optional
@@ -90,7 +93,7 @@ def least_distorted_map(
         sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
         if rounds:
             energy = _of_equal_faces(energy)
-            sphere = unjam(descent, energy, sphere, rounds=rounds, tolerance=tolerance)
+            sphere = unjam(descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance)
         if exact_areas:
             true = areas * (4 * np.pi / areas.sum())
             sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)

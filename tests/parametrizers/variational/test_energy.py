@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -37,6 +39,19 @@ def test_gradient_agrees_with_finite_differences(shape: float) -> None:
     steps = 1e-6 * np.eye(84)
     numeric = [(value_at(step) - value_at(-step)) / 2e-6 for step in steps]
     np.testing.assert_allclose(gradient, numeric, atol=1e-7)
+
+
+@pytest.mark.parametrize("shape", [0.0, 0.3])
+@pytest.mark.parametrize("seed", range(3))
+def test_gradient_in_space_has_the_one_in_tangent_coordinates(shape: float, seed: int) -> None:
+    energy = replace(
+        _energy(ellipsoid(1, 2, 5, subdivisions=1), shape), shifts=np.linspace(-1, 1, 80)
+    )
+    sphere, basis = _perturbed(seed)
+    _, gradient = energy.value_and_gradient(sphere)
+    in_tangents = np.einsum("vdc,vc->vd", basis, gradient).ravel()
+    expected = energy.derivatives(sphere, basis)[0]
+    np.testing.assert_allclose(in_tangents, expected, atol=1e-13 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("seed", range(5))
