@@ -44,12 +44,15 @@ def main() -> None:
 
 def stages(mesh: trimesh.Trimesh) -> Mapping[str, NDArray[np.floating]]:
     """Return what the stages make of a surface, each in units of its own range."""
-    plain, exact = (gipkg.parametrize(mesh, exact_areas=flag) for flag in (False, True))
+    plain = gipkg.parametrize(mesh)
+    freed = gipkg.parametrize(mesh, shape_weight=1e-7, rounds=3)
+    exact = gipkg.parametrize(mesh, exact_areas=True)
     values = Operators(mesh, EIGENPAIRS).spectrum.eigenvalues
     signature = gipkg.describe(mesh, "hks", times=5)
     image = gipkg.geometry_image(plain, signature, size=56)
     return {
         "map": plain.sphere,
+        "map after rounds": freed.sphere,
         "map with exact areas": exact.sphere,
         "eigenvalues": values / values[-1],
         "HKS": signature / np.ptp(signature, axis=0),

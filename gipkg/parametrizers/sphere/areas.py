@@ -75,6 +75,30 @@ def _signed_areas(sphere, faces):  # type: ignore[no-untyped-def]
     return areas
 
 
+def area_gradients(sphere: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Compute the gradient of every face's signed spherical area at its corners.
+
+    Parameters
+    ----------
+    sphere : (V, 3) float64 array
+        Unit vectors.
+    faces : (F, 3) int64 array
+
+    Returns
+    -------
+    (F, 3, 3) float64 array
+        In the order (face, corner, coordinate). Only the tangential part is meaningful.
+    """
+    corners = sphere[faces]
+    following, preceding = np.roll(corners, -1, axis=1), np.roll(corners, 1, axis=1)
+    triple = triple_products(sphere, faces)[:, None, None]
+    chords = ((following - corners) ** 2).sum(axis=(1, 2))[:, None, None]
+    cosines = 4 - chords / 2
+    turned = cosines * np.cross(following, preceding) - triple * (following + preceding)
+    gradients: NDArray[np.float64] = 2 * turned / (cosines**2 + triple**2)
+    return gradients
+
+
 def mean_square_distortion(
     sphere: NDArray[np.float64], faces: NDArray[np.int64], areas: NDArray[np.float64]
 ) -> float:

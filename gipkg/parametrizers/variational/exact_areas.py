@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from gipkg.cholesky import Cholesky, NotPositiveDefinite
 from gipkg.errors import ParametrizationError
-from gipkg.parametrizers.sphere.areas import signed_spherical_areas, triple_products
+from gipkg.parametrizers.sphere.areas import area_gradients, signed_spherical_areas
 from gipkg.parametrizers.sphere.tangent import move, tangent_basis
 from gipkg.parametrizers.variational.energy import MapEnergy
 
@@ -225,7 +225,7 @@ class _Search:
     def _jacobian(self, sphere: NDArray[np.float64], basis: NDArray[np.float64]) -> sp.csr_array:
         """Slopes of all errors but one in the tangent coordinates, (V - 1, 2V)."""
         faces = self._energy.faces
-        slopes = np.einsum("fkc,fkdc->fkd", _area_gradients(sphere, faces), basis[faces])
+        slopes = np.einsum("fkc,fkdc->fkd", area_gradients(sphere, faces), basis[faces])
         by_face = sp.csr_array(
             (slopes.ravel(), self._unknowns.ravel(), 6 * np.arange(len(faces) + 1)),
             shape=(len(faces), 2 * len(sphere)),
@@ -262,18 +262,3 @@ def _constrained_step(
         if np.linalg.norm(left) <= _LEFT * np.linalg.norm(errors):
             break
     return step
-
-
-def _area_gradients(sphere: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Compute the gradient of every face's spherical area at its corners, (F, 3, 3).
-
-    Only its tangential part is meaningful.
-    """
-    corners = sphere[faces]
-    following, preceding = np.roll(corners, -1, axis=1), np.roll(corners, 1, axis=1)
-    triple = triple_products(sphere, faces)[:, None, None]
-    chords = ((following - corners) ** 2).sum(axis=(1, 2))[:, None, None]
-    cosines = 4 - chords / 2
-    turned = cosines * np.cross(following, preceding) - triple * (following + preceding)
-    gradients: NDArray[np.float64] = 2 * turned / (cosines**2 + triple**2)
-    return gradients

@@ -2,10 +2,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gipkg.parametrizers.sphere.areas import (
+    area_gradients,
     flipped_faces,
     signed_spherical_areas,
     triple_products,
@@ -61,3 +62,25 @@ def test_small_triangles_keep_their_relative_accuracy() -> None:
     u /= np.linalg.norm(u)
     corners = np.array([p, p + size * u, p + size * np.cross(p, u)])
     assert triple_products(corners, FORWARD)[0] == pytest.approx(size**2, rel=1e-8)
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+def test_area_gradients_agree_with_finite_differences(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    sphere = rng.standard_normal((3, 3))
+    sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+    face = np.array([[0, 1, 2]])
+    determinant = abs(np.linalg.det(sphere))
+    assume(determinant > 0.05)
+    gradients = area_gradients(sphere, face)[0]
+    for corner in range(3):
+        tangent = np.cross(sphere[corner], rng.standard_normal(3))
+        moved = []
+        for step in (1e-6, -1e-6):
+            points = sphere.copy()
+            points[corner] += step * tangent
+            points[corner] /= np.linalg.norm(points[corner])
+            moved.append(signed_spherical_areas(points, face)[0])
+        assert gradients[corner] @ tangent == pytest.approx(
+            (moved[0] - moved[1]) / 2e-6, abs=1e-6 * (1 + 1 / determinant)
+        )
