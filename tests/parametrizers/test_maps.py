@@ -182,7 +182,7 @@ _MAP_BYTES = """
 import hashlib
 import gipkg
 from tests.support.shapes import urchin
-sphere = gipkg.parametrize(urchin(12, 6.0, subdivisions=5), rounds=1, exact_areas=True).sphere
+sphere = gipkg.parametrize(urchin(12, 6.0), rounds=1, exact_areas=True).sphere
 print(hashlib.sha256(sphere.tobytes()).hexdigest())
 """
 
