@@ -71,6 +71,7 @@ def softest(
         (slopes.ravel(), columns.ravel(), 6 * np.arange(len(faces) + 1)),
         shape=(len(faces), 2 * len(sphere)),
     )
+    # The total area is fixed, so that one value is zero: the small term keeps the matrix regular.
     squares = (by_face @ by_face.T + 1e-14 * sp.eye_array(len(faces))).tocsc()
     values, patterns = eigsh(squares, k=PATTERNS, sigma=0, which="LM")
     order = values.argsort()

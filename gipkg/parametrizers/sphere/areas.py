@@ -87,7 +87,8 @@ def area_gradients(sphere: NDArray[np.float64], faces: NDArray[np.int64]) -> NDA
     Returns
     -------
     (F, 3, 3) float64 array
-        In the order (face, corner, coordinate). Only the tangential part is meaningful.
+        Steradians per unit of length, in the order (face, corner, coordinate). Only the tangential
+        part is meaningful.
     """
     corners = sphere[faces]
     following, preceding = np.roll(corners, -1, axis=1), np.roll(corners, 1, axis=1)

@@ -55,10 +55,19 @@ class MapEnergy:
         return self.value_and_gradient(sphere)[0]
 
     def value_and_gradient(self, sphere: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
-        """Energy of a map (V, 3), and its gradient (V, 3) in space.
+        """Energy of a map and its gradient in space.
 
-        The gradient has a part along the radius that means nothing, and none that means anything
-        where the energy is infinite.
+        Parameters
+        ----------
+        sphere : (V, 3) float64 array
+            Unit vectors.
+
+        Returns
+        -------
+        value : float
+            Infinite if a face is flipped.
+        gradient : (V, 3) float64 array
+            Only its tangential part is meaningful, and only where the energy is finite.
         """
         gradient = np.zeros_like(sphere)
         value = _value_and_gradient(

@@ -133,6 +133,11 @@ class Descent:
         -------
         callable
             Solves for a gradient (2V,), until the next system is factorized.
+
+        Raises
+        ------
+        NotPositiveDefinite
+            No damping helps.
         """
         _, *blocks = energy.derivatives(sphere, basis)
         hessian, metric = (_gather(block, self._slots, self._entries) for block in blocks)

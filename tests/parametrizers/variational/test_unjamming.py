@@ -6,6 +6,7 @@ import pytest
 from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
 from gipkg.parametrizers.variational import unjamming
 from gipkg.parametrizers.variational.newton import Descent
+from gipkg.parametrizers.variational.quasi_newton import run
 from gipkg.parametrizers.variational.unjamming import unjam
 
 
@@ -45,9 +46,25 @@ def test_rounds_end_at_the_tolerance(jammed) -> None:
     assert _face_std(energy, _unjam(energy, sphere, rounds - 1)) > wanted
 
 
-def test_a_push_that_gets_stuck_is_given_up_for_a_smaller_one(jammed, monkeypatch) -> None:
+def test_after_a_push_that_got_stuck_a_smaller_one_starts_at_the_best_map(
+    jammed, monkeypatch
+) -> None:
     energy, sphere = jammed
+    calls = []
+
+    def noting(descent, pushed_energy, start, steps):
+        calls.append([pushed_energy.shifts, start])
+        point = run(descent, pushed_energy, start, steps)
+        calls[-1].append(descent.damping > unjamming._STUCK)
+        return point
+
+    monkeypatch.setattr(unjamming, "run", noting)
     monkeypatch.setattr(unjamming, "_SHARE", 1e4)  # flattens faces at once
-    freed = _unjam(energy, sphere, 3)
+    freed = _unjam(energy, sphere, 1)
+    pushes = calls[: unjamming._PUSHES]
+    first = next(k for k, (_, _, stuck) in enumerate(pushes) if stuck)
+    shifts, start, _ = pushes[first + 1]
+    assert start is sphere  # nothing better was met in the first round
+    np.testing.assert_allclose(shifts, unjamming._SMALLER * pushes[0][0])
     assert energy.value(freed) <= energy.value(sphere)
     assert not flipped_faces(freed, energy.faces).any()
