@@ -16,7 +16,7 @@ from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
 from gipkg.parametrizers.variational.newton import Descent
-from gipkg.parametrizers.variational.unjamming import unjam
+from gipkg.parametrizers.variational.unjamming import SMOOTH, unjam
 from gipkg.surfaces.angles import corner_cotangents
 from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.validation import check_genus_zero
@@ -90,10 +90,15 @@ def least_distorted_map(
     with threadpool_limits(limits=1):
         sphere = embed(vertices, faces, energy.targets)
         descent = Descent(faces, len(order), callback and _in_order(callback, order))
-        sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
         if rounds:
+            smooth = replace(energy, shape=max(shape_weight, SMOOTH))
+            sphere = _descend(
+                descent, smooth, sphere, max_iterations, max(tolerance, _PATH_TOLERANCE)
+            )
             energy = _of_equal_faces(energy)
             sphere = unjam(descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance)
+        else:
+            sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
         if exact_areas:
             true = areas * (4 * np.pi / areas.sum())
             sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,15 +12,21 @@ from gipkg.parametrizers.variational.unjamming import unjam
 
 
 @pytest.fixture(scope="module")
-def jammed(problem):
+def smooth(problem):
+    """Energy of areas alone, and the map at which shape weighs as much as areas."""
     energy, start = problem
-    hard = replace(energy, shape=1e-7)
     descent = Descent(energy.faces, len(start))
-    return hard, descent.minimize(hard, start, max_iterations=60, tolerance=1e-4)
+    as_shape = replace(energy, shape=unjamming.SMOOTH)
+    sphere = descent.minimize(as_shape, start, max_iterations=30, tolerance=1e-2)
+    return replace(energy, shape=1e-7), sphere
+
+
+def _ratios(energy, sphere) -> np.ndarray:
+    return signed_spherical_areas(sphere, energy.faces) / energy.targets
 
 
 def _face_std(energy, sphere) -> float:
-    return float((signed_spherical_areas(sphere, energy.faces) / energy.targets).std())
+    return float(_ratios(energy, sphere).std())
 
 
 def _unjam(energy, sphere, rounds: int, face_tolerance: float = 0.0) -> np.ndarray:
@@ -27,44 +34,77 @@ def _unjam(energy, sphere, rounds: int, face_tolerance: float = 0.0) -> np.ndarr
     return unjam(descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance)
 
 
-def test_more_rounds_never_lead_higher_and_flip_no_face(jammed) -> None:
-    energy, sphere = jammed
-    maps = [_unjam(energy, sphere, rounds) for rounds in range(4)]
+def test_rounds_lead_nearer_than_a_descent_never_higher_and_flip_no_face(smooth) -> None:
+    energy, sphere = smooth
+    descent = Descent(energy.faces, len(sphere))
+    descended = descent.minimize(energy, sphere, max_iterations=300, tolerance=1e-5)
+    maps = [_unjam(energy, sphere, rounds) for rounds in (0, 1, 2, 8)]
     np.testing.assert_array_equal(maps[0], sphere)
     values = [energy.value(one) for one in maps]
     assert (np.diff(values) <= 0).all()
-    assert values[-1] < 0.5 * values[0]
+    assert values[-1] < 0.5 * energy.value(descended)
     assert not any(flipped_faces(one, energy.faces).any() for one in maps)
 
 
-def test_rounds_end_at_the_tolerance(jammed) -> None:
-    energy, sphere = jammed
-    wanted = 0.9 * _face_std(energy, sphere)
-    ended = _unjam(energy, sphere, 50, wanted)
+def test_rounds_end_at_the_tolerance(smooth) -> None:
+    energy, sphere = smooth
+    wanted = 0.9 * _face_std(energy, _unjam(energy, sphere, 1))
+    ended = _unjam(energy, sphere, 12, wanted)
     assert _face_std(energy, ended) <= wanted
-    rounds = next(k for k in range(50) if np.array_equal(_unjam(energy, sphere, k), ended))
+    rounds = next(k for k in range(12) if np.array_equal(_unjam(energy, sphere, k), ended))
     assert _face_std(energy, _unjam(energy, sphere, rounds - 1)) > wanted
 
 
-def test_after_a_push_that_got_stuck_a_smaller_one_starts_at_the_best_map(
-    jammed, monkeypatch
-) -> None:
-    energy, sphere = jammed
+def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    calls = _noted(monkeypatch)
+    _unjam(replace(energy, shape=1e-2), sphere, 1)
+    levels = [weight for weight in unjamming._LEVELS if weight > 1e-2]
+    assert levels == sorted(levels, reverse=True)
+    expected = np.repeat(levels, unjamming._PUSHES_A_LEVEL)
+    pushes = calls[: len(expected) + unjamming._PUSHES_A_ROUND]
+    weights = [pushed.shape for pushed, *_ in pushes]
+    np.testing.assert_array_equal(weights[: len(expected)], expected)
+    assert set(weights[len(expected) :]) == {1e-2}
+    for (before, _, reached, damping), (after, start, _, _) in pairwise(pushes):
+        assert start is reached
+        errors = unjamming._residuals(_ratios(energy, reached))
+        left = unjamming._LEFT if damping > unjamming._STUCK else 1.0
+        grown = left * (before.shifts + unjamming._SHARE * errors)
+        np.testing.assert_allclose(after.shifts, grown)
+    assert not any(back.shifts.any() for back, *_ in calls[len(pushes) :])
+
+
+def test_a_large_mesh_takes_fewer_rounds(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    monkeypatch.setattr(unjamming, "_ALL_ROUNDS", 0.5 * len(sphere))
+    np.testing.assert_array_equal(_unjam(energy, sphere, 3), _unjam(energy, sphere, 4))
+    monkeypatch.setattr(unjamming, "_ALL_ROUNDS", len(sphere))
+    assert not np.array_equal(_unjam(energy, sphere, 3), _unjam(energy, sphere, 4))
+
+
+def test_a_push_that_got_stuck_is_halved(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    calls = _noted(monkeypatch)
+    monkeypatch.setattr(unjamming, "_SHARE", 1e4)  # flattens faces at once
+    freed = _unjam(energy, sphere, 1)
+    stuck = next(k for k, (*_, damping) in enumerate(calls) if damping > unjamming._STUCK)
+    (before, _, reached, _), (after, start, _, _) = calls[stuck : stuck + 2]
+    pushed = before.shifts + 1e4 * unjamming._residuals(_ratios(energy, reached))
+    np.testing.assert_allclose(after.shifts, unjamming._LEFT * pushed)
+    assert start is reached
+    assert energy.value(freed) <= energy.value(sphere)
+    assert not flipped_faces(freed, energy.faces).any()
+
+
+def _noted(monkeypatch) -> list[tuple]:
+    """Of every run: its energy, where it starts and ends, and the damping that it leaves."""
     calls = []
 
-    def noting(descent, pushed_energy, start, steps):
-        calls.append([pushed_energy.shifts, start])
-        point = run(descent, pushed_energy, start, steps)
-        calls[-1].append(descent.damping > unjamming._STUCK)
+    def noting(descent, energy, start, steps):
+        point = run(descent, energy, start, steps)
+        calls.append((energy, start, point, descent.damping))
         return point
 
     monkeypatch.setattr(unjamming, "run", noting)
-    monkeypatch.setattr(unjamming, "_SHARE", 1e4)  # flattens faces at once
-    freed = _unjam(energy, sphere, 1)
-    pushes = calls[: unjamming._PUSHES]
-    first = next(k for k, (_, _, stuck) in enumerate(pushes) if stuck)
-    shifts, start, _ = pushes[first + 1]
-    assert start is sphere  # nothing better was met in the first round
-    np.testing.assert_allclose(shifts, unjamming._SMALLER * pushes[0][0])
-    assert energy.value(freed) <= energy.value(sphere)
-    assert not flipped_faces(freed, energy.faces).any()
+    return calls
