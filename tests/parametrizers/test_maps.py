@@ -156,12 +156,12 @@ def test_exact_vertex_areas_on_real_shapes(data_root) -> None:
 
 
 def test_rounds_free_faces_that_block_each_other() -> None:
-    mesh = urchin(12, 6.0)
+    mesh = urchin(12, 6.0, subdivisions=3)
     plain, freed = (
         distortion(parametrize(mesh, shape_weight=1e-7, rounds=rounds)) for rounds in (0, 6)
     )
     assert freed.flips == 0
-    assert freed.face_std < 0.6 * plain.face_std
+    assert freed.face_std < 0.4 * plain.face_std
 
 
 @pytest.mark.parametrize("method", ["authalic", "conformal"])

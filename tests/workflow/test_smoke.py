@@ -260,7 +260,8 @@ def test_a_second_run_does_nothing(smoke: Workdir) -> None:
 
 def test_a_killed_run_is_taken_up_by_the_same_command(smoke: Workdir, tmp_path: Path) -> None:
     # Enough of the whole: `python -m benchmarks.kills` kills all of it, and at any moment.
-    workdir, targets = Workdir(tmp_path), ("results/table1.csv", "results/table_distortion.csv")
+    trained = "results/evaluation/table1/tiny/ours/Tiny1.json"
+    workdir, targets = Workdir(tmp_path), (trained, "results/table_distortion.csv")
     run = subprocess.Popen(
         workdir.command(*targets),
         stdout=subprocess.DEVNULL,
@@ -272,7 +273,7 @@ def test_a_killed_run_is_taken_up_by_the_same_command(smoke: Workdir, tmp_path: 
         time.sleep(0.01)
     os.killpg(run.pid, signal.SIGKILL)
     assert run.wait() == -signal.SIGKILL
-    assert not (tmp_path / "results/table1.csv").exists()
+    assert not (tmp_path / trained).exists()
 
     done = workdir.run(*targets)
     assert done.returncode == 0, done.stdout

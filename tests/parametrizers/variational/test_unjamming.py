@@ -12,9 +12,9 @@ from gipkg.parametrizers.variational.unjamming import unjam
 
 
 @pytest.fixture(scope="module")
-def smooth(problem):
+def smooth(small_problem):
     """Energy of areas alone, and the map at which shape weighs as much as areas."""
-    energy, start = problem
+    energy, start = small_problem
     descent = Descent(energy.faces, len(start))
     as_shape = replace(energy, shape=unjamming.SMOOTH)
     sphere = descent.minimize(as_shape, start, max_iterations=30, tolerance=1e-2)
