@@ -54,12 +54,12 @@ def least_distorted_map(
     area_weight, shape_weight : float
         Of the two terms of :class:`~gipkg.parametrizers.variational.energy.MapEnergy`.
     max_iterations : int
-        Of the descent, before any rounds.
+        Of the descent; where there are rounds, to the smooth map that they begin at.
     tolerance : float
         Relative decrease of the energy that ends the descent.
     rounds : int
-        Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most, and with all faces
-        weighed alike from there on.
+        Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most; all faces weigh alike
+        in them.
     face_tolerance : float
         Standard deviation of the faces' area ratios at which the rounds end.
     exact_areas : bool
