@@ -87,6 +87,23 @@ def test_a_large_mesh_takes_fewer_rounds(smooth, monkeypatch, limit, taken) -> N
     assert len(pushes) == taken * unjamming._PUSHES_A_ROUND
 
 
+def test_the_share_of_the_errors_falls_round_by_round_to_the_least(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    shares = []
+    push = unjamming._push
+
+    def noting(descent, pushed, start, shifts, share):
+        shares.append(share)
+        return push(descent, pushed, start, shifts, share)
+
+    monkeypatch.setattr(unjamming, "_push", noting)
+    _unjam(energy, sphere, 6)
+    down = len(unjamming._LEVELS) * unjamming._PUSHES_A_LEVEL
+    assert set(shares[:down]) == {unjamming._SHARE}
+    expected = [max(0.5 * 0.8**k, 0.2) for k in range(6)]
+    np.testing.assert_allclose(shares[down:], np.repeat(expected, unjamming._PUSHES_A_ROUND))
+
+
 def test_a_push_that_got_stuck_is_halved(smooth, monkeypatch) -> None:
     energy, sphere = smooth
     calls = _noted(monkeypatch)
