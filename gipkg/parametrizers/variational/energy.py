@@ -3,7 +3,7 @@
 Every face f contributes ``W (ρ(a / A) + μ)² + shape * A (2 D / det - 1)``: `a` is its signed
 spherical area, `A` the area that it should have, `ρ` the
 :func:`~gipkg.parametrizers.sphere.area_residual.area_residual`, `μ` a shift that is 0 but
-where :mod:`~gipkg.parametrizers.variational.unjamming` pushes a face on, `D` the Dirichlet energy
+where :mod:`~gipkg.parametrizers.variational.multipliers` push a face on, `D` the Dirichlet energy
 of its map from the mesh to the flat triangle of its corners and ``det`` their triple product. The
 flat triangle lies at distance h <= 1 from the centre and has the area ``det / 2h <= D``, so that
 ``2 D / det`` is at least 1, is the conformal distortion (MIPS: Hormann & Greiner 2000) of small

@@ -15,8 +15,8 @@ from gipkg.parametrizers.hierarchy.embedding import embed
 from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
+from gipkg.parametrizers.variational.multipliers import SMOOTH, toward_exact_face_areas
 from gipkg.parametrizers.variational.newton import Descent
-from gipkg.parametrizers.variational.unjamming import SMOOTH, unjam
 from gipkg.surfaces.angles import corner_cotangents
 from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.validation import check_genus_zero
@@ -58,8 +58,8 @@ def least_distorted_map(
     tolerance : float
         Relative decrease of the energy that ends the descent.
     rounds : int
-        Of :func:`~gipkg.parametrizers.variational.unjamming.unjam`, at most; all faces weigh alike
-        in them.
+        Of :func:`~gipkg.parametrizers.variational.multipliers.toward_exact_face_areas`, at most;
+        all faces weigh alike in them.
     face_tolerance : float
         Standard deviation of the faces' area ratios at which the rounds end.
     exact_areas : bool
@@ -96,7 +96,9 @@ def least_distorted_map(
                 descent, smooth, sphere, max_iterations, max(tolerance, _PATH_TOLERANCE)
             )
             energy = _of_equal_faces(energy)
-            sphere = unjam(descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance)
+            sphere = toward_exact_face_areas(
+                descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance
+            )
         else:
             sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
         if exact_areas:

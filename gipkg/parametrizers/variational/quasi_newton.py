@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gipkg.compilation import compiled
 from gipkg.parametrizers.lbfgs import Memory
 from gipkg.parametrizers.sphere.tangent import tangent_basis
 from gipkg.parametrizers.variational.energy import MapEnergy
@@ -85,10 +86,37 @@ class _Chart:
         self, coordinates: NDArray[np.float64]
     ) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
         """Energy, gradient (2V,) and map (V, 3)."""
-        point = self._sphere + np.einsum("vd,vdc->vc", coordinates.reshape(-1, 2), self.basis)
-        lengths = np.linalg.norm(point, axis=1, keepdims=True)
-        point /= lengths
+        point, lengths = _moved(self._sphere, self.basis, coordinates)
         value, gradient = self._energy.value_and_gradient(point)
-        gradient -= np.einsum("vc,vc->v", gradient, point)[:, None] * point
-        gradient /= lengths
-        return value, np.einsum("vdc,vc->vd", self.basis, gradient).ravel(), point
+        return value, _pulled_back(gradient, point, lengths, self.basis), point
+
+
+@compiled
+def _moved(sphere, basis, coordinates):  # type: ignore[no-untyped-def]
+    """Go along tangent coordinates and back to the sphere; how far off it that was."""
+    point, lengths = np.empty_like(sphere), np.empty(len(sphere))
+    for v in range(len(sphere)):
+        square = 0.0
+        for c in range(3):
+            along = coordinates[2 * v] * basis[v, 0, c] + coordinates[2 * v + 1] * basis[v, 1, c]
+            point[v, c] = sphere[v, c] + along
+            square += point[v, c] ** 2
+        lengths[v] = np.sqrt(square)
+        for c in range(3):
+            point[v, c] /= lengths[v]
+    return point, lengths
+
+
+@compiled
+def _pulled_back(gradient, point, lengths, basis):  # type: ignore[no-untyped-def]
+    """Bring a gradient at the moved points to the coordinates along which they moved."""
+    pulled = np.zeros(2 * len(point))
+    for v in range(len(point)):
+        outward = 0.0
+        for c in range(3):
+            outward += gradient[v, c] * point[v, c]
+        for c in range(3):
+            tangential = (gradient[v, c] - outward * point[v, c]) / lengths[v]
+            pulled[2 * v] += basis[v, 0, c] * tangential
+            pulled[2 * v + 1] += basis[v, 1, c] * tangential
+    return pulled

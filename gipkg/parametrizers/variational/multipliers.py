@@ -11,16 +11,24 @@ weighs as much as their areas, and that weight falls a level at a time, so that 
 the triangles are still round. From the last level on every round lets go of the map and descends
 without the push.
 
+Two things bring it on. A push keeps on growing where the errors stay (momentum), as soft modes
+give way slowly. And where a few faces block each other for good, so that most of the error gathers
+in them, pushes alone only swing to and fro: faces that are still far off at the end of a round
+weigh several times more from then on, and less again, by and by, where they are not.
+
 References
 ----------
 Hestenes, Multiplier and gradient methods, J. Optimization Theory and Applications 1969; Powell
-1969. Just rigid frames: Lubensky et al., Phonons and elasticity in critically coordinated lattices,
+1969. Momentum that is dropped when errors turn against it: O'Donoghue & Candès, Adaptive restart
+for accelerated gradient schemes, Foundations of Computational Mathematics 2015. Weights that grow
+where a search is caught: Morris, The breakout method for escaping from local minima, AAAI 1993.
+Just rigid frames: Lubensky et al., Phonons and elasticity in critically coordinated lattices,
 Reports on Progress in Physics 2015.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
@@ -44,11 +52,16 @@ _ALL_ROUNDS = 3_500
 """Vertices up to which all rounds are taken; a larger mesh takes fewer, in about the same time."""
 _SHARE, _LESS, _LEAST_SHARE = 0.5, 0.8, 0.2
 """Of its error by which a push grows, at first; what is left of that after a round; at least."""
+_MOMENTUM = 0.5
+"""Of its last growth by which a push grows besides."""
+_FAR, _HEAVIER, _LIGHTER, _HEAVIEST = 4.0, 4.0, 0.9, 1e3
+"""Standard deviations from which an error is far off; by what such a face and the others change
+their weights after a round, between 1 and the last number."""
 _START_DAMPING, _STUCK, _LEFT = 1e-3, 0.3, 0.5
 """Damping at first, and the one from which pushes flatten faces; what is left of them then."""
 
 
-def unjam(
+def toward_exact_face_areas(
     descent: Descent,
     energy: MapEnergy,
     sphere: NDArray[np.float64],
@@ -77,21 +90,22 @@ def unjam(
         Unit vectors, no flipped face.
     """
     best, least = sphere, energy.value(sphere)
-    shifts = np.zeros_like(energy.shifts)
     descent.damping = _START_DAMPING
+    pushed = _Pushed.at(sphere, len(energy.faces))
     for shape in _LEVELS:
         if shape > energy.shape:
             level = replace(energy, shape=shape)
             for _ in range(_PUSHES_A_LEVEL):
-                sphere, shifts = _push(descent, level, sphere, shifts, _SHARE)
+                pushed.push(descent, level, _SHARE)
     share = _SHARE
     for _ in range(ceil(rounds * min(1.0, _ALL_ROUNDS / len(sphere)))):
         for _ in range(_PUSHES_A_ROUND):
-            sphere, shifts = _push(descent, energy, sphere, shifts, share)
+            pushed.push(descent, energy, share)
         share = max(_LESS * share, _LEAST_SHARE)
         damping = descent.damping
-        freed = _let_go(descent, energy, sphere)
+        freed = _let_go(descent, energy, pushed.sphere)
         descent.damping = damping
+        pushed.weigh(_ratios(energy, freed) - 1)
         if (value := energy.value(freed)) < least:
             best, least = freed, value
         if _ratios(energy, best).std() <= face_tolerance:
@@ -99,19 +113,49 @@ def unjam(
     return best
 
 
-def _push(
-    descent: Descent,
-    energy: MapEnergy,
-    sphere: NDArray[np.float64],
-    shifts: NDArray[np.float64],
-    share: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Follow the minimum (V, 3); add a share of the errors that it leaves to the shifts (F,)."""
-    sphere = run(descent, replace(energy, shifts=shifts), sphere, _STEPS_A_PUSH)
-    shifts = shifts + share * _residuals(_ratios(energy, sphere))
-    if descent.damping > _STUCK:
-        descent.damping, shifts = _START_DAMPING, _LEFT * shifts
-    return sphere, shifts
+@dataclass
+class _Pushed:
+    """A map and what pushes it.
+
+    Attributes
+    ----------
+    sphere : (V, 3) float64 array
+    shifts, growth : (F,) float64 arrays
+        Shifts of the faces' residuals, and by how much they grew last.
+    weights : (F,) float64 array
+        What faces weigh, as a multiple of what they do in the energy.
+    """
+
+    sphere: NDArray[np.float64]
+    shifts: NDArray[np.float64]
+    growth: NDArray[np.float64]
+    weights: NDArray[np.float64]
+
+    @classmethod
+    def at(cls, sphere: NDArray[np.float64], faces: int) -> _Pushed:
+        """Begin without a push, all faces alike."""
+        return cls(sphere, np.zeros(faces), np.zeros(faces), np.ones(faces))
+
+    def push(self, descent: Descent, energy: MapEnergy, share: float) -> None:
+        """Follow the minimum; add a share of the errors that it leaves to the shifts."""
+        pushing = replace(energy, shifts=self.shifts, weights=self.weights * energy.weights)
+        self.sphere = run(descent, pushing, self.sphere, _STEPS_A_PUSH)
+        errors = _residuals(_ratios(energy, self.sphere))
+        momentum = _MOMENTUM if self.growth @ errors > 0 else 0.0
+        self.growth = share * errors + momentum * self.growth
+        self.shifts = self.shifts + self.growth
+        if descent.damping > _STUCK:
+            descent.damping = _START_DAMPING
+            self.shifts = _LEFT * self.shifts
+            self.growth = np.zeros_like(self.growth)
+
+    def weigh(self, errors: NDArray[np.float64]) -> None:
+        """Let faces with large errors (F,) weigh more; each is pushed as hard as before."""
+        before = self.weights
+        far = np.abs(errors) > _FAR * errors.std()
+        self.weights = np.clip(before * np.where(far, _HEAVIER, _LIGHTER), 1.0, _HEAVIEST)
+        self.shifts = self.shifts * before / self.weights
+        self.growth = self.growth * before / self.weights
 
 
 def _let_go(
