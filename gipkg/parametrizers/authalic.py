@@ -59,6 +59,13 @@ class Authalic(Parametrizer):
         lt=1,
         description="end the rounds at this standard deviation of the faces' area ratios",
     )
+    trials: int = Field(
+        1,
+        ge=1,
+        le=5,
+        description="how often the rounds are taken, each time with other pushes, while more than "
+        "four times the face tolerance is left",
+    )
     exact_areas: bool = Field(
         False,
         description="end on exact areas of all vertices",
@@ -78,6 +85,7 @@ class Authalic(Parametrizer):
             tolerance=self.tolerance,
             rounds=self.rounds,
             face_tolerance=self.face_tolerance,
+            trials=self.trials,
             callback=callback,
             exact_areas=self.exact_areas,
         )

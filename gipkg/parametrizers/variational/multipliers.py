@@ -14,7 +14,9 @@ without the push.
 Two things bring it on. A push keeps on growing where the errors stay (momentum), as soft modes
 give way slowly. And where a few faces block each other for good, so that most of the error gathers
 in them, pushes alone only swing to and fro: faces that are still far off at the end of a round
-weigh several times more from then on, and less again, by and by, where they are not.
+weigh several times more from then on, and less again, by and by, where they are not. The way is a
+chaotic one: a map that is still far from the tolerance at its end is given another, with pushes
+that grow by another share.
 
 References
 ----------
@@ -51,7 +53,10 @@ _RUNS_BACK, _STEPS_BACK, _LEAST_GAIN = 4, 20, 0.05
 _ALL_ROUNDS = 3_500
 """Vertices up to which all rounds are taken; a larger mesh takes fewer, in about the same time."""
 _SHARE, _LESS, _LEAST_SHARE = 0.5, 0.8, 0.2
-"""Of its error by which a push grows, at first; what is left of that after a round; at least."""
+"""Of its error by which a push grows, at first; what is left of that after a round, and to begin
+with on the next way; at least."""
+_FAR_FROM_TOLERANCE = 4.0
+"""Multiple of the tolerance above which another way is taken."""
 _MOMENTUM = 0.5
 """Of its last growth by which a push grows besides."""
 _FAR, _HEAVIER, _LIGHTER, _HEAVIEST = 4.0, 4.0, 0.9, 1e3
@@ -68,6 +73,7 @@ def toward_exact_face_areas(
     *,
     rounds: int,
     face_tolerance: float,
+    trials: int = 1,
 ) -> NDArray[np.float64]:
     """Bring a smooth map near to exact face areas; the map of least energy met is kept.
 
@@ -79,16 +85,36 @@ def toward_exact_face_areas(
     sphere : (V, 3) float64 array
         Unit vectors, no flipped face; best at the minimum for the weight `SMOOTH` of shape.
     rounds : int
-        At most, after the levels on the way down, of a dozen factorizations each; of a mesh of
-        more than 3,500 vertices fewer in proportion, so that the time is bounded.
+        At most on a way, after the levels down to it, of a dozen factorizations each; of a mesh
+        of more than 3,500 vertices fewer in proportion, so that the time is bounded.
     face_tolerance : float
         Standard deviation of the faces' area ratios that is small enough.
+    trials : int
+        Ways taken at most; another one only while more than four times the tolerance is left.
 
     Returns
     -------
     (V, 3) float64 array
         Unit vectors, no flipped face.
     """
+    best = sphere
+    for trial in range(trials):
+        found = _along(descent, energy, sphere, _SHARE * _LESS**trial, rounds, face_tolerance)
+        best = min(best, found, key=energy.value)
+        if _ratios(energy, best).std() <= _FAR_FROM_TOLERANCE * face_tolerance:
+            break
+    return best
+
+
+def _along(
+    descent: Descent,
+    energy: MapEnergy,
+    sphere: NDArray[np.float64],
+    share: float,
+    rounds: int,
+    face_tolerance: float,
+) -> NDArray[np.float64]:
+    """Go one way of pushes from a smooth map (V, 3); the map of least energy met is kept."""
     best, least = sphere, energy.value(sphere)
     descent.damping = _START_DAMPING
     pushed = _Pushed.at(sphere, len(energy.faces))
@@ -96,8 +122,7 @@ def toward_exact_face_areas(
         if shape > energy.shape:
             level = replace(energy, shape=shape)
             for _ in range(_PUSHES_A_LEVEL):
-                pushed.push(descent, level, _SHARE)
-    share = _SHARE
+                pushed.push(descent, level, share)
     for _ in range(ceil(rounds * min(1.0, _ALL_ROUNDS / len(sphere)))):
         for _ in range(_PUSHES_A_ROUND):
             pushed.push(descent, energy, share)

@@ -39,6 +39,7 @@ def least_distorted_map(
     tolerance: float,
     rounds: int = 0,
     face_tolerance: float = 0.0,
+    trials: int = 1,
     exact_areas: bool = False,
     callback: Callback | None = None,
 ) -> NDArray[np.float64]:
@@ -62,6 +63,8 @@ def least_distorted_map(
         all faces weigh alike in them.
     face_tolerance : float
         Standard deviation of the faces' area ratios at which the rounds end.
+    trials : int
+        How often the rounds are taken at most, while far more than the tolerance is left.
     exact_areas : bool
         End on exact areas of all vertices.
     callback : callable, optional
@@ -97,7 +100,12 @@ def least_distorted_map(
             )
             energy = _of_equal_faces(energy)
             sphere = toward_exact_face_areas(
-                descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance
+                descent,
+                energy,
+                sphere,
+                rounds=rounds,
+                face_tolerance=face_tolerance,
+                trials=trials,
             )
         else:
             sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
