@@ -29,11 +29,16 @@ def _face_std(energy, sphere) -> float:
     return float(_ratios(energy, sphere).std())
 
 
-def _rounds(energy, sphere, rounds: int, face_tolerance: float = 0.0) -> np.ndarray:
+def _rounds(energy, sphere, rounds: int, face_tolerance: float = 0.0, trials=1) -> np.ndarray:
     descent = Descent(energy.faces, len(sphere))
     with threadpool_limits(limits=1):  # for the same bits every time
         return multipliers.toward_exact_face_areas(
-            descent, energy, sphere, rounds=rounds, face_tolerance=face_tolerance
+            descent,
+            energy,
+            sphere,
+            rounds=rounds,
+            face_tolerance=face_tolerance,
+            trials=trials,
         )
 
 
@@ -129,19 +134,29 @@ def test_a_large_mesh_takes_fewer_rounds(smooth, monkeypatch, limit, taken) -> N
 
 def test_the_share_of_the_errors_falls_round_by_round_to_the_least(smooth, monkeypatch) -> None:
     energy, sphere = smooth
-    shares = []
-    push = multipliers._Pushed.push
-
-    def noting(pushed, descent, energy, share):
-        shares.append(share)
-        push(pushed, descent, energy, share)
-
-    monkeypatch.setattr(multipliers._Pushed, "push", noting)
+    shares = _noted_shares(monkeypatch)
     _rounds(energy, sphere, 6)
     down = len(multipliers._LEVELS) * multipliers._PUSHES_A_LEVEL
     assert set(shares[:down]) == {multipliers._SHARE}
     expected = [max(0.5 * 0.8**k, 0.2) for k in range(6)]
     np.testing.assert_allclose(shares[down:], np.repeat(expected, multipliers._PUSHES_A_ROUND))
+
+
+def test_another_way_is_taken_while_far_more_than_the_tolerance_is_left(
+    smooth, monkeypatch
+) -> None:
+    energy, sphere = smooth
+    once = _rounds(energy, sphere, 1)
+    left = _face_std(energy, once)
+    shares = _noted_shares(monkeypatch)
+    near = _rounds(energy, sphere, 1, left / 3.9, trials=3)
+    np.testing.assert_array_equal(near, once)
+    a_way = len(shares)
+    shares.clear()
+    far = _rounds(energy, sphere, 1, left / 1e3, trials=3)
+    assert len(shares) == 3 * a_way
+    np.testing.assert_allclose(shares[::a_way], [0.5, 0.4, 0.32])
+    assert energy.value(far) <= energy.value(once)
 
 
 def test_a_push_that_got_stuck_is_halved(smooth, monkeypatch) -> None:
@@ -170,3 +185,16 @@ def _noted(monkeypatch) -> list[tuple]:
 
     monkeypatch.setattr(multipliers, "run", noting)
     return calls
+
+
+def _noted_shares(monkeypatch) -> list[float]:
+    """Of every push: by what share of the errors it grows."""
+    shares = []
+    push = multipliers._Pushed.push
+
+    def noting(pushed, descent, energy, share):
+        shares.append(share)
+        push(pushed, descent, energy, share)
+
+    monkeypatch.setattr(multipliers._Pushed, "push", noting)
+    return shares
