@@ -6,7 +6,8 @@
 say which patterns of errors a small move can mend, in units in which every vertex alone changes the
 areas around it by 1. Printed for each mesh: the softest values, how much of the squared error the
 softest patterns hold, how many faces wide such a pattern is (the inverse of the sum of its fourth
-powers), and how errors of neighbours correlate (-1/2: too large beside too small).
+powers), how much the ten worst faces hold, and how errors of neighbours correlate (-1/2: too large
+beside too small).
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from gipkg.parametrizers.sphere.areas import area_gradients
 from gipkg.parametrizers.sphere.tangent import tangent_basis
 from gipkg.surfaces.halfedges import twins
 
-PATTERNS = 60
+PATTERNS, WORST = 60, 10
 
 
 def main() -> None:
@@ -48,12 +49,13 @@ def report(spherical_map: gipkg.SphericalMap) -> str:
     errors -= errors.mean()
     values, patterns = softest(spherical_map.sphere, faces, found.mesh_areas)
     share = ((patterns.T @ errors) ** 2).sum() / (errors @ errors)
+    worst = np.sort(errors**2)[-WORST:].sum() / (errors @ errors)
     widths = 1 / (patterns**4).sum(axis=0)
     across = errors[twins(faces) // 3]  # in the order of the half-edges, three a face
     return (
         f"face std {found.face_std:.4f}, softest values {values[[2, 10, 30, -1]]}, "
         f"{share:.0%} of the squared error in {PATTERNS} of {len(faces)} patterns, "
-        f"{np.median(widths):.0f} faces wide, "
+        f"{np.median(widths):.0f} faces wide, {worst:.0%} in {WORST} faces, "
         f"neighbours correlate {np.corrcoef(np.repeat(errors, 3), across)[0, 1]:.2f}"
     )
 
