@@ -20,11 +20,11 @@ class Authalic(Parametrizer):
     reduces the same area distortion by a flow of small explicit steps.
 
     The defaults are for learning: fast, areas of faces to a few percent. For the most exact areas
-    take ``shape_weight=1e-7, rounds=120, exact_areas=True``; the rounds begin at a smooth map and
-    weigh all faces alike, where the descent without them weighs small ones less. Vertex areas can
-    then be exact, since there are V of them and 2V - 3 degrees of freedom. The 2V - 5 face areas
-    take up all freedom and block each other: rounds bring them within some thousandths, more slowly
-    the closer they are.
+    take ``shape_weight=1e-7, rounds=150, trials=3, exact_areas=True``; the rounds begin at a smooth
+    map and weigh faces half alike and half by their squared areas, as the two measures of
+    distortion do. Vertex areas can then be exact, since there are V of them and 2V - 3 degrees of
+    freedom. The 2V - 5 face areas take up all freedom and block each other: rounds bring them
+    within some thousandths, more slowly the closer they are.
     """
 
     summary: ClassVar[str] = "area-preserving, bijective (the paper's map, found variationally)"

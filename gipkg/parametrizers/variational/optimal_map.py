@@ -60,7 +60,7 @@ def least_distorted_map(
         Relative decrease of the energy that ends the descent.
     rounds : int
         Of :func:`~gipkg.parametrizers.variational.multipliers.toward_exact_face_areas`, at most;
-        all faces weigh alike in them.
+        the two measures of area distortion weigh alike in them.
     face_tolerance : float
         Standard deviation of the faces' area ratios at which the rounds end.
     trials : int
@@ -98,7 +98,7 @@ def least_distorted_map(
             sphere = _descend(
                 descent, smooth, sphere, max_iterations, max(tolerance, _PATH_TOLERANCE)
             )
-            energy = _of_equal_faces(energy)
+            energy = _of_both_measures(energy)
             sphere = toward_exact_face_areas(
                 descent,
                 energy,
@@ -132,9 +132,14 @@ def _energy(
     )
 
 
-def _of_equal_faces(energy: MapEnergy) -> MapEnergy:
-    """Weigh all faces alike, as std(r - 1) does: near its end a descent is not ruled by slivers."""
-    return replace(energy, weights=np.full_like(energy.weights, energy.weights.mean()))
+def _of_both_measures(energy: MapEnergy) -> MapEnergy:
+    """Weigh faces half alike, as std(r - 1) does, and half by squared areas, as δh·A does.
+
+    Near its end a descent is then ruled neither by slivers nor by the largest faces.
+    """
+    squares = energy.targets**2
+    shares = 0.5 + 0.5 * squares / squares.mean()
+    return replace(energy, weights=energy.weights.mean() * shares)
 
 
 def _in_single(values: NDArray[np.float64]) -> NDArray[np.float64]:
