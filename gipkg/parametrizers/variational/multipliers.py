@@ -12,7 +12,7 @@ the triangles are still round. From the last level on every round lets go of the
 without the push.
 
 Two things bring it on. A push keeps on growing where the errors stay (momentum), as soft modes
-give way slowly. And where a few faces block each other for good, so that most of the error gathers
+give way slowly. And where a few faces block each other for good, so that much of the error gathers
 in them, pushes alone only swing to and fro: faces that are still far off at the end of a round
 weigh several times more from then on, and less again, by and by, where they are not. The way is a
 chaotic one: a map that is still far from the tolerance at its end is given another, with pushes
