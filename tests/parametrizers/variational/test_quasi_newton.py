@@ -1,11 +1,12 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from gipkg.parametrizers.sphere.areas import flipped_faces
-from gipkg.parametrizers.sphere.tangent import tangent_basis
+from gipkg.parametrizers.sphere.tangent import move, tangent_basis
 from gipkg.parametrizers.variational.newton import Descent
-from gipkg.parametrizers.variational.quasi_newton import run
+from gipkg.parametrizers.variational.quasi_newton import _Chart, run
 
 
 def test_every_run_lowers_the_energy_tells_of_it_and_flips_no_face(problem) -> None:
@@ -56,3 +57,17 @@ def test_at_a_minimum_it_stays_and_damping_has_a_bound(problem) -> None:
     assert smooth.value(again) <= smooth.value(sphere)
     assert 1 < descent.damping <= 1e6
     np.testing.assert_allclose(again, sphere, atol=1e-7)
+
+
+def test_a_chart_gives_the_slopes_of_the_energy_along_its_coordinates(small_problem) -> None:
+    energy, sphere = small_problem
+    chart = _Chart(energy, sphere)
+    rng = np.random.default_rng(0)
+    size = 2 * len(sphere)
+    here = 1e-4 * rng.standard_normal(size)  # off the middle, where lengths are not 1
+    _, gradient, point = chart.at(here)
+    np.testing.assert_allclose(point, move(sphere, chart.basis, here), atol=1e-15)
+    for _ in range(5):
+        along = rng.standard_normal(size)
+        ahead, behind = (chart.at(here + sign * 1e-7 * along)[0] for sign in (1, -1))
+        assert (ahead - behind) / 2e-7 == pytest.approx(gradient @ along, rel=1e-5)
