@@ -50,8 +50,8 @@ class Authalic(Parametrizer):
         0,
         ge=0,
         le=1000,
-        description="rounds, of a dozen factorizations each, that bring face areas nearer to exact "
-        "ones; beyond 3,500 vertices fewer in proportion",
+        description="rounds, of two dozen factorizations each, that bring face areas nearer to "
+        "exact ones; beyond 2,000 vertices fewer in proportion",
     )
     face_tolerance: float = Field(
         1e-3,

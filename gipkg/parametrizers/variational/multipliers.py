@@ -47,12 +47,12 @@ SMOOTH = 1.0
 """Weight of shape at whose minimum the pushes begin."""
 _LEVELS = tuple(np.geomspace(SMOOTH, 1e-4, 10))
 """Weights of shape on the way down."""
-_PUSHES_A_LEVEL, _PUSHES_A_ROUND, _STEPS_A_PUSH = 5, 10, 15
+_PUSHES_A_LEVEL, _PUSHES_A_ROUND, _STEPS_A_PUSH = 5, 20, 15
 _RUNS_BACK, _STEPS_BACK, _LEAST_GAIN = 4, 20, 0.05
 """Without a push, at the end of a round; the share of the energy that a run has to gain."""
-_ALL_ROUNDS = 3_500
+_ALL_ROUNDS = 2_000
 """Vertices up to which all rounds are taken; a larger mesh takes fewer, in about the same time."""
-_SHARE, _LESS, _LEAST_SHARE = 0.5, 0.8, 0.2
+_SHARE, _LESS, _LEAST_SHARE = 0.5, 0.64, 0.2
 """Of its error by which a push grows, at first; what is left of that after a round, and to begin
 with on the next way; at least."""
 _FAR_FROM_TOLERANCE = 4.0
@@ -85,8 +85,8 @@ def toward_exact_face_areas(
     sphere : (V, 3) float64 array
         Unit vectors, no flipped face; best at the minimum for the weight `SMOOTH` of shape.
     rounds : int
-        At most on a way, after the levels down to it, of a dozen factorizations each; of a mesh
-        of more than 3,500 vertices fewer in proportion, so that the time is bounded.
+        At most on a way, after the levels down to it, of two dozen factorizations each; of a mesh
+        of more than 2,000 vertices fewer in proportion, so that the time is bounded.
     face_tolerance : float
         Standard deviation of the faces' area ratios that is small enough.
     trials : int

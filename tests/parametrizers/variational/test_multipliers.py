@@ -142,7 +142,7 @@ def test_the_share_of_the_errors_falls_round_by_round_to_the_least(smooth, monke
     _rounds(energy, sphere, 6)
     down = len(multipliers._LEVELS) * multipliers._PUSHES_A_LEVEL
     assert set(shares[:down]) == {multipliers._SHARE}
-    expected = [max(0.5 * 0.8**k, 0.2) for k in range(6)]
+    expected = [max(0.5 * 0.64**k, 0.2) for k in range(6)]
     np.testing.assert_allclose(shares[down:], np.repeat(expected, multipliers._PUSHES_A_ROUND))
 
 
@@ -159,7 +159,7 @@ def test_another_way_is_taken_while_far_more_than_the_tolerance_is_left(
     shares.clear()
     far = _rounds(energy, sphere, 1, left / 1e3, trials=3)
     assert len(shares) == 3 * a_way
-    np.testing.assert_allclose(shares[::a_way], [0.5, 0.4, 0.32])
+    np.testing.assert_allclose(shares[::a_way], [0.5, 0.32, 0.2048])
     assert energy.value(far) <= energy.value(once)
 
 
