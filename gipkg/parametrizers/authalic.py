@@ -51,7 +51,7 @@ class Authalic(Parametrizer):
         ge=0,
         le=1000,
         description="rounds, of two dozen factorizations each, that bring face areas nearer to "
-        "exact ones; beyond 2,000 vertices fewer in proportion",
+        "exact ones; beyond 2,000 vertices fewer in proportion, at least a tenth",
     )
     face_tolerance: float = Field(
         1e-3,

@@ -50,8 +50,9 @@ _LEVELS = tuple(np.geomspace(SMOOTH, 1e-4, 10))
 _PUSHES_A_LEVEL, _PUSHES_A_ROUND, _STEPS_A_PUSH = 5, 20, 15
 _RUNS_BACK, _STEPS_BACK, _LEAST_GAIN = 4, 20, 0.05
 """Without a push, at the end of a round; the share of the energy that a run has to gain."""
-_ALL_ROUNDS = 2_000
-"""Vertices up to which all rounds are taken; a larger mesh takes fewer, in about the same time."""
+_ALL_ROUNDS, _LEAST_ROUNDS = 2_000, 0.1
+"""Vertices up to which all rounds are taken; a larger mesh takes fewer in proportion, at least this
+share of them."""
 _SHARE, _LESS, _LEAST_SHARE = 0.5, 0.64, 0.2
 """Of its error by which a push grows, at first; what is left of that after a round, and to begin
 with on the next way; at least."""
@@ -86,7 +87,7 @@ def toward_exact_face_areas(
         Unit vectors, no flipped face; best at the minimum for the weight `SMOOTH` of shape.
     rounds : int
         At most on a way, after the levels down to it, of two dozen factorizations each; of a mesh
-        of more than 2,000 vertices fewer in proportion, so that the time is bounded.
+        of more than 2,000 vertices fewer in proportion, at least a tenth.
     face_tolerance : float
         Standard deviation of the faces' area ratios that is small enough.
     trials : int
@@ -123,7 +124,8 @@ def _along(
             level = replace(energy, shape=shape)
             for _ in range(_PUSHES_A_LEVEL):
                 pushed.push(descent, level, share)
-    for _ in range(ceil(rounds * min(1.0, _ALL_ROUNDS / len(sphere)))):
+    part = min(1.0, max(_ALL_ROUNDS / len(sphere), _LEAST_ROUNDS))
+    for _ in range(ceil(part * rounds)):
         for _ in range(_PUSHES_A_ROUND):
             pushed.push(descent, energy, share)
         share = max(_LESS * share, _LEAST_SHARE)

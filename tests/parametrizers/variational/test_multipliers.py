@@ -126,12 +126,13 @@ def test_weights_rule_the_pushes_of_later_rounds_and_not_the_way_back(smooth, mo
     assert {1.0, 4.0} <= heaviest
 
 
-@pytest.mark.parametrize(("limit", "taken"), [(1.0, 3), (0.5, 2), (0.3, 1)])
+@pytest.mark.parametrize(("limit", "taken"), [(1.0, 10), (0.5, 5), (0.15, 2), (0.01, 1)])
 def test_a_large_mesh_takes_fewer_rounds(smooth, monkeypatch, limit, taken) -> None:
     energy, sphere = smooth
     calls = _noted(monkeypatch)
     monkeypatch.setattr(multipliers, "_ALL_ROUNDS", limit * len(sphere))
-    _rounds(energy, sphere, 3)
+    monkeypatch.setattr(multipliers, "_PUSHES_A_ROUND", 4)
+    _rounds(energy, sphere, 10)
     pushes = [one for one, *_ in calls if one.shape == energy.shape and one.shifts.any()]
     assert len(pushes) == taken * multipliers._PUSHES_A_ROUND
 
