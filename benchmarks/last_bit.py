@@ -45,7 +45,7 @@ def main() -> None:
 def stages(mesh: trimesh.Trimesh) -> Mapping[str, NDArray[np.floating]]:
     """Return what the stages make of a surface, each in units of its own range."""
     plain = gipkg.parametrize(mesh)
-    freed = gipkg.parametrize(mesh, shape_weight=1e-7, rounds=3)
+    freed = gipkg.parametrize(mesh, shape_weight=1e-7, rounds=3, face_tolerance=1e-3)
     exact = gipkg.parametrize(mesh, exact_areas=True)
     values = Operators(mesh, EIGENPAIRS).spectrum.eigenvalues
     signature = gipkg.describe(mesh, "hks", times=5)

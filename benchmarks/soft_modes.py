@@ -36,7 +36,12 @@ def main() -> None:
     arguments = parser.parse_args()
     for path in arguments.files:
         mesh = gipkg.prepare(path).mesh
-        settings = {"shape_weight": 1e-7, "tolerance": 1e-5, "max_iterations": 400}
+        settings = {
+            "shape_weight": 1e-7,
+            "tolerance": 1e-5,
+            "max_iterations": 400,
+            "face_tolerance": 1e-3,
+        }
         spherical_map = gipkg.parametrize(mesh, **settings, rounds=arguments.rounds)
         print(f"{path.name} ({len(mesh.vertices)} vertices): {report(spherical_map)}", flush=True)
 

@@ -122,7 +122,8 @@ def test_real_articulated_shapes(data_root, method: str) -> None:
         _assert_bijective(spherical_map)
         measured.append(distortion(spherical_map))
     if method == "authalic":
-        assert np.median([m.face_std for m in measured]) < 0.09
+        # Some meshes of 252 vertices are jammed: no setting brings their faces so near.
+        assert np.mean([m.face_std <= 0.03 for m in measured]) > 0.8
         assert np.median([m.vertex_std for m in measured]) < 0.025
 
 
@@ -155,10 +156,36 @@ def test_exact_vertex_areas_on_real_shapes(data_root) -> None:
         assert distortion(spherical_map).vertex_std < 1e-10
 
 
+@pytest.mark.parametrize("wanted", [0.015, 0.01, 0.005])
+def test_rounds_follow_a_descent_that_ends_further_off_than_wanted(wanted: float) -> None:
+    descended = parametrize(HARD["urchin"], rounds=0)
+    assert distortion(descended).face_std > wanted
+    spherical_map = parametrize(HARD["urchin"], face_tolerance=wanted)
+    assert distortion(spherical_map).face_std <= wanted
+    _assert_bijective(spherical_map)
+
+
+def test_a_descent_that_is_enough_is_all() -> None:
+    descended, told = parametrize(HARD["urchin"], rounds=0), []
+    default = parametrize(HARD["urchin"], callback=told.append)
+    np.testing.assert_array_equal(default.sphere, descended.sphere)
+    np.testing.assert_array_equal(told[-1].sphere, descended.sphere)
+
+
+def test_angles_keep_a_weight_of_their_own() -> None:
+    # At this weight areas are further off than the tolerance; no round is taken for them.
+    kept = parametrize(HARD["urchin"], shape_weight=0.1)
+    assert distortion(kept).face_std > 0.03
+    np.testing.assert_array_equal(
+        kept.sphere, parametrize(HARD["urchin"], shape_weight=0.1, rounds=0).sphere
+    )
+
+
 def test_rounds_free_faces_that_block_each_other() -> None:
     mesh = urchin(12, 6.0, subdivisions=3)
     plain, freed = (
-        distortion(parametrize(mesh, shape_weight=1e-7, rounds=rounds)) for rounds in (0, 6)
+        distortion(parametrize(mesh, shape_weight=1e-7, rounds=rounds, face_tolerance=1e-3))
+        for rounds in (0, 6)
     )
     assert freed.flips == 0
     assert freed.face_std < 0.4 * plain.face_std
@@ -182,7 +209,7 @@ _MAP_BYTES = """
 import hashlib
 import gipkg
 from tests.support.shapes import urchin
-sphere = gipkg.parametrize(urchin(12, 6.0), rounds=1, exact_areas=True).sphere
+sphere = gipkg.parametrize(urchin(12, 6.0), shape_weight=1e-7, rounds=1, exact_areas=True).sphere
 print(hashlib.sha256(sphere.tobytes()).hexdigest())
 """
 

@@ -15,14 +15,15 @@ from gipkg.parametrizers.hierarchy.embedding import embed
 from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
-from gipkg.parametrizers.variational.multipliers import SMOOTH, toward_exact_face_areas
+from gipkg.parametrizers.variational.multipliers import SMOOTH, Rounds, toward_exact_face_areas
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.surfaces.angles import corner_cotangents
 from gipkg.surfaces.areas import face_areas
 from gipkg.surfaces.validation import check_genus_zero
 
-_SHAPE_PATH = (1.0, 0.1)
-"""Weights of shape on the way down: areas met from a smooth map meet fewer jams."""
+_BETWEEN = 0.1
+"""Weight of shape between the smooth map and the end of a descent: areas met from a smooth map meet
+fewer jams."""
 _PATH_ITERATIONS, _PATH_TOLERANCE = 15, 1e-2
 _WAY_OUT = (
     "parts of the mesh shrink below double precision; raise the weight of the area term, or "
@@ -37,9 +38,7 @@ def least_distorted_map(
     shape_weight: float,
     max_iterations: int,
     tolerance: float,
-    rounds: int = 0,
-    face_tolerance: float = 0.0,
-    trials: int = 1,
+    rounds: Rounds | None = None,
     exact_areas: bool = False,
     callback: Callback | None = None,
 ) -> NDArray[np.float64]:
@@ -55,16 +54,13 @@ def least_distorted_map(
     area_weight, shape_weight : float
         Of the two terms of :class:`~gipkg.parametrizers.variational.energy.MapEnergy`.
     max_iterations : int
-        Of the descent; where there are rounds, to the smooth map that they begin at.
+        Of the descent, to the smooth map that rounds begin at and from there.
     tolerance : float
         Relative decrease of the energy that ends the descent.
-    rounds : int
-        Of :func:`~gipkg.parametrizers.variational.multipliers.toward_exact_face_areas`, at most;
-        the two measures of area distortion weigh alike in them.
-    face_tolerance : float
-        Standard deviation of the faces' area ratios at which the rounds end.
-    trials : int
-        How often the rounds are taken at most, while far more than the tolerance is left.
+    rounds : Rounds, optional
+        In place of the descent, where they keep its weight on shape; where that may fall, only
+        after a descent that was not enough. The two measures of area distortion weigh alike in
+        them.
     exact_areas : bool
         End on exact areas of all vertices.
     callback : callable, optional
@@ -93,22 +89,13 @@ def least_distorted_map(
     with threadpool_limits(limits=1):
         sphere = embed(vertices, faces, energy.targets)
         descent = Descent(faces, len(order), callback and _in_order(callback, order))
-        if rounds:
-            smooth = replace(energy, shape=max(shape_weight, SMOOTH))
-            sphere = _descend(
-                descent, smooth, sphere, max_iterations, max(tolerance, _PATH_TOLERANCE)
-            )
-            energy = _of_both_measures(energy)
-            sphere = toward_exact_face_areas(
-                descent,
-                energy,
-                sphere,
-                rounds=rounds,
-                face_tolerance=face_tolerance,
-                trials=trials,
-            )
-        else:
-            sphere = _descend(descent, energy, sphere, max_iterations, tolerance)
+        smooth = _smooth_map(descent, energy, sphere, max_iterations, tolerance)
+        sphere = smooth
+        shape_falls = rounds is not None and rounds.least_shape < energy.shape
+        if rounds is None or shape_falls:
+            sphere = _descend(descent, energy, smooth, max_iterations, tolerance)
+        if rounds and not (shape_falls and rounds.enough(energy, sphere)):
+            sphere = toward_exact_face_areas(descent, _of_both_measures(energy), smooth, rounds)
         if exact_areas:
             true = areas * (4 * np.pi / areas.sum())
             sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)
@@ -146,17 +133,36 @@ def _in_single(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return values.astype(np.float32).astype(np.float64)
 
 
+def _smooth_map(
+    descent: Descent,
+    energy: MapEnergy,
+    start: NDArray[np.float64],
+    max_iterations: int,
+    tolerance: float,
+) -> NDArray[np.float64]:
+    """Descend to where shape weighs most on the way; no step is taken where it weighs more."""
+    if energy.shape >= SMOOTH:
+        return start
+    return descent.minimize(
+        replace(energy, shape=SMOOTH),
+        start,
+        max_iterations=min(_PATH_ITERATIONS, max_iterations),
+        tolerance=max(tolerance, _PATH_TOLERANCE),
+    )
+
+
 def _descend(
     descent: Descent,
     energy: MapEnergy,
-    sphere: NDArray[np.float64],
+    smooth: NDArray[np.float64],
     max_iterations: int,
     tolerance: float,
 ) -> NDArray[np.float64]:
     """Follow the minimum from much weight on shape down to the weight that was asked for."""
-    for shape in (weight for weight in _SHAPE_PATH if weight > energy.shape):
+    sphere = smooth
+    if energy.shape < _BETWEEN:
         sphere = descent.minimize(
-            replace(energy, shape=shape),
+            replace(energy, shape=_BETWEEN),
             sphere,
             max_iterations=min(_PATH_ITERATIONS, max_iterations - descent.iterations),
             tolerance=max(tolerance, _PATH_TOLERANCE),

@@ -10,6 +10,8 @@ from gipkg.parametrizers.variational import multipliers
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.parametrizers.variational.quasi_newton import run
 
+_PUSHES_A_LEVEL = multipliers.Rounds(0, 0.0, 1.0).pushes_a_level
+
 
 @pytest.fixture(scope="module")
 def smooth(small_problem):
@@ -29,16 +31,16 @@ def _face_std(energy, sphere) -> float:
     return float(_ratios(energy, sphere).std())
 
 
-def _rounds(energy, sphere, rounds: int, face_tolerance: float = 0.0, trials=1) -> np.ndarray:
+def _rounds(
+    energy, sphere, rounds: int, face_tolerance: float = 0.0, trials=1, least_shape=1.0
+) -> np.ndarray:
     descent = Descent(energy.faces, len(sphere))
     with threadpool_limits(limits=1):  # for the same bits every time
         return multipliers.toward_exact_face_areas(
             descent,
             energy,
             sphere,
-            rounds=rounds,
-            face_tolerance=face_tolerance,
-            trials=trials,
+            multipliers.Rounds(rounds, face_tolerance, least_shape, trials=trials),
         )
 
 
@@ -47,8 +49,7 @@ def test_rounds_lead_nearer_than_a_descent_never_higher_and_flip_no_face(smooth)
     descent = Descent(energy.faces, len(sphere))
     descended = descent.minimize(energy, sphere, max_iterations=300, tolerance=1e-5)
     maps = [_rounds(energy, sphere, rounds) for rounds in (0, 1, 2, 8)]
-    np.testing.assert_array_equal(maps[0], sphere)
-    values = [energy.value(one) for one in maps]
+    values = [energy.value(one) for one in (sphere, *maps)]
     assert (np.diff(values) <= 0).all()
     assert values[-1] < 0.5 * energy.value(descended)
     assert not any(flipped_faces(one, energy.faces).any() for one in maps)
@@ -69,7 +70,10 @@ def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) ->
     _rounds(replace(energy, shape=1e-2), sphere, 1)
     levels = [weight for weight in multipliers._LEVELS if weight > 1e-2]
     assert levels == sorted(levels, reverse=True)
-    expected = np.repeat(levels, multipliers._PUSHES_A_LEVEL)
+    expected = np.repeat(levels, _PUSHES_A_LEVEL)
+    back = next(k for k, (one, *_) in enumerate(calls[len(expected) :]) if one.shifts.any())
+    assert 1 <= back <= multipliers._RUNS_BACK
+    del calls[len(expected) : len(expected) + back]
     pushes = calls[: len(expected) + multipliers._PUSHES_A_ROUND]
     weights = [pushed.shape for pushed, *_ in pushes]
     np.testing.assert_array_equal(weights[: len(expected)], expected)
@@ -87,6 +91,29 @@ def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) ->
         growth = growth * (not stuck)
     assert momenta == {0.0, 0.5}
     assert not any(back.shifts.any() for back, *_ in calls[len(pushes) :])
+
+
+def test_shape_weighs_a_tenth_after_each_round_down_to_the_least(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    calls = _noted(monkeypatch)
+    found = _rounds(replace(energy, shape=1e-2), sphere, 4, least_shape=3e-4)
+    weights = [one.shape for one, *_ in calls if one.shape <= 1e-2]
+    expected = [1e-2, 1e-2, 1e-3, 3e-4, 3e-4]  # back from the levels, then the rounds
+    np.testing.assert_allclose(list(dict.fromkeys(weights)), [1e-2, 1e-3, 3e-4])
+    pushes = [one.shape for one, *_ in calls if one.shape <= 1e-2 and one.shifts.any()]
+    np.testing.assert_allclose(pushes, np.repeat(expected[1:], multipliers._PUSHES_A_ROUND))
+    kept = _rounds(replace(energy, shape=1e-2), sphere, 4)
+    assert _face_std(energy, found) < 0.8 * _face_std(energy, kept)
+
+
+def test_no_round_is_taken_where_the_levels_are_enough(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    levels = _rounds(energy, sphere, 0)
+    assert _face_std(energy, levels) < 0.5 * _face_std(energy, sphere)
+    shares = _noted_shares(monkeypatch)
+    enough = _rounds(energy, sphere, 3, 1.01 * _face_std(energy, levels))
+    np.testing.assert_array_equal(enough, levels)
+    assert len(shares) == len(multipliers._LEVELS) * _PUSHES_A_LEVEL
 
 
 def test_faces_that_stay_far_off_weigh_more_and_less_again_when_they_are_not() -> None:
@@ -112,17 +139,18 @@ def test_weights_rule_the_pushes_of_later_rounds_and_not_the_way_back(smooth, mo
     calls = _noted(monkeypatch)
     _rounds(energy, sphere, 3)
     expected = multipliers._Pushed.at(sphere, len(energy.faces))
-    freed, heaviest = None, set()
+    freed, heaviest, in_rounds = None, set(), False
     for one, _, reached, _ in calls:
         if one.shape == energy.shape and not one.shifts.any():  # on the way back
             np.testing.assert_array_equal(one.weights, energy.weights)
-            freed = reached
+            freed = reached if in_rounds else None
             continue
         if freed is not None:  # a round begins
             expected.weigh(_ratios(energy, freed) - 1)
             freed = None
         np.testing.assert_allclose(one.weights, expected.weights * energy.weights)
         heaviest.add(expected.weights.max())
+        in_rounds = one.shape == energy.shape
     assert {1.0, 4.0} <= heaviest
 
 
@@ -141,7 +169,7 @@ def test_the_share_of_the_errors_falls_round_by_round_to_the_least(smooth, monke
     energy, sphere = smooth
     shares = _noted_shares(monkeypatch)
     _rounds(energy, sphere, 6)
-    down = len(multipliers._LEVELS) * multipliers._PUSHES_A_LEVEL
+    down = len(multipliers._LEVELS) * _PUSHES_A_LEVEL
     assert set(shares[:down]) == {multipliers._SHARE}
     expected = [max(0.5 * 0.64**k, 0.2) for k in range(6)]
     np.testing.assert_allclose(shares[down:], np.repeat(expected, multipliers._PUSHES_A_ROUND))
