@@ -98,9 +98,10 @@ class Rounds:
     pushes_a_level: int = 5
     trials: int = 1
 
-    def enough(self, energy: MapEnergy, sphere: NDArray[np.float64]) -> bool:
-        """Whether the face areas of a map (V, 3) are within the tolerance."""
-        return bool(_ratios(energy, sphere).std() <= self.face_tolerance)
+
+def face_std(energy: MapEnergy, sphere: NDArray[np.float64]) -> float:
+    """Measure the standard deviation of the faces' area ratios of a map (V, 3)."""
+    return float(_ratios(energy, sphere).std())
 
 
 def toward_exact_face_areas(
@@ -126,7 +127,7 @@ def toward_exact_face_areas(
     for trial in range(rounds.trials):
         found = _along(descent, energy, goal, sphere, _SHARE * _LESS**trial, rounds)
         best = min(best, found, key=goal.value)
-        if _ratios(energy, best).std() <= _FAR_FROM_TOLERANCE * rounds.face_tolerance:
+        if face_std(energy, best) <= _FAR_FROM_TOLERANCE * rounds.face_tolerance:
             break
     return best
 
@@ -150,7 +151,7 @@ def _along(
     best = min(sphere, _let_go(descent, energy, pushed.sphere), key=goal.value)
     part = min(1.0, max(_ALL_ROUNDS / len(sphere), _LEAST_ROUNDS))
     for _ in range(ceil(part * rounds.count)):
-        if rounds.enough(energy, best):
+        if face_std(energy, best) <= rounds.face_tolerance:
             break
         for _ in range(_PUSHES_A_ROUND):
             pushed.push(descent, energy, share)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import trimesh
@@ -15,7 +16,12 @@ from gipkg.parametrizers.hierarchy.embedding import embed
 from gipkg.parametrizers.sphere.bijectivity import require_bijective
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
-from gipkg.parametrizers.variational.multipliers import SMOOTH, Rounds, toward_exact_face_areas
+from gipkg.parametrizers.variational.multipliers import (
+    SMOOTH,
+    Rounds,
+    face_std,
+    toward_exact_face_areas,
+)
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.surfaces.angles import corner_cotangents
 from gipkg.surfaces.areas import face_areas
@@ -94,8 +100,9 @@ def least_distorted_map(
         shape_falls = rounds is not None and rounds.least_shape < energy.shape
         if rounds is None or shape_falls:
             sphere = _descend(descent, energy, smooth, max_iterations, tolerance)
-        if rounds and not (shape_falls and rounds.enough(energy, sphere)):
-            sphere = toward_exact_face_areas(descent, _of_both_measures(energy), smooth, rounds)
+        if rounds and not (shape_falls and face_std(energy, sphere) <= rounds.face_tolerance):
+            freed = toward_exact_face_areas(descent, _of_both_measures(energy), smooth, rounds)
+            sphere = min(freed, sphere, key=partial(face_std, energy))
         if exact_areas:
             true = areas * (4 * np.pi / areas.sum())
             sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)
