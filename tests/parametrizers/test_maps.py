@@ -122,7 +122,7 @@ def test_real_articulated_shapes(data_root, method: str) -> None:
         _assert_bijective(spherical_map)
         measured.append(distortion(spherical_map))
     if method == "authalic":
-        # Some meshes of 252 vertices are jammed: no setting brings their faces so near.
+        # Some meshes of 252 vertices are jammed and end further off.
         assert np.mean([m.face_std <= 0.03 for m in measured]) > 0.8
         assert np.median([m.vertex_std for m in measured]) < 0.025
 
