@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 import trimesh
@@ -11,10 +12,13 @@ from pydantic import Field
 
 from gipkg.api import Callback, Parametrizer, ParametrizerTags
 
-_SHAPE_WEIGHT, _LEAST_SHAPE_WEIGHT, _ROUNDS = 1e-3, 1e-7, 20
-"""Weights of angles from and down to which rounds go where it is left open, and how many."""
-_FEW_PUSHES, _PUSHES = 3, 5
-"""A level on the way to the first round: enough for a few percent, and for what rounds follow."""
+if TYPE_CHECKING:
+    from gipkg.parametrizers.variational.multipliers import Rounds
+
+_SHAPE_WEIGHT, _ROUNDS = 1e-3, 30
+"""Weight of angles, at first, and rounds at most, where both are left open."""
+_FEW_PUSHES, _SHORT_PUSHES = 3, 10
+"""A level on the way to the first round, and steps of each: enough for a few percent."""
 
 
 class Authalic(Parametrizer):
@@ -24,16 +28,16 @@ class Authalic(Parametrizer):
     term, from a bijective start, by Gauss-Newton steps that never flip a face. The paper
     reduces the same area distortion by a flow of small explicit steps.
 
-    The defaults bring the areas of faces within three percent (one standard deviation), by a
-    descent and, where that ends further off, by rounds of pushes in which angles weigh less and
-    less. With a `shape_weight` of one's own, angles keep that weight and the descent is all; so it
-    is with ``rounds=0``, for learning: faster, smoother, areas of faces to a few percent on most
-    shapes. For the most exact areas take ``shape_weight=1e-7, rounds=150, face_tolerance=1e-3,
-    trials=3, exact_areas=True``; the rounds begin at a smooth map and weigh faces half alike and
-    half by their squared areas, as the two measures of distortion do. Vertex areas can then be
-    exact, since there are V of them and 2V - 3 degrees of freedom. The 2V - 5 face areas take up
-    all freedom and block each other: rounds bring them within some thousandths, more slowly the
-    closer they are.
+    The defaults bring the areas of faces within three percent (one standard deviation): from a
+    smooth map areas are pushed toward exact ones, a few times at each weight of angles on the way
+    down, and in rounds where that is not enough. With a `shape_weight` of one's own, angles keep
+    that weight and a descent is all; so it is with ``rounds=0``, for learning: faster, areas of
+    faces to a few percent on most shapes. For the most exact areas take ``shape_weight=1e-7,
+    rounds=150, face_tolerance=1e-3, trials=3, exact_areas=True``; faces weigh half alike in the
+    rounds and half by their squared areas, as the two measures of distortion do. Vertex areas can
+    then be exact, since there are V of them and 2V - 3 degrees of freedom. The 2V - 5 face areas
+    take up all freedom and block each other: rounds bring them within some thousandths, more slowly
+    the closer they are.
     """
 
     summary: ClassVar[str] = "area-preserving, bijective (the paper's map, found variationally)"
@@ -49,8 +53,8 @@ class Authalic(Parametrizer):
         None,
         ge=0,
         le=1,
-        description="weight of angles against areas, 0 for areas alone; left open it is .001, and "
-        "falls from round to round",
+        description="weight of angles against areas, 0 for areas alone; left open it falls until "
+        "areas are within the face tolerance (with 0 rounds it is .001)",
     )
     max_iterations: int = Field(100, ge=1, le=10_000, description="Gauss-Newton steps at most")
     tolerance: float = Field(
@@ -62,7 +66,7 @@ class Authalic(Parametrizer):
         le=1000,
         description="rounds at most, of two dozen factorizations each, that bring face areas "
         "nearer to exact ones; beyond 2,000 vertices fewer in proportion, at least a tenth; left "
-        "open 20 with an open weight of angles, else none",
+        "open 30 with an open weight of angles, else none",
     )
     face_tolerance: float = Field(
         0.03,
@@ -86,29 +90,30 @@ class Authalic(Parametrizer):
         self, mesh: trimesh.Trimesh, callback: Callback | None = None
     ) -> NDArray[np.float64]:
         """Map a closed genus-0 mesh to the sphere (see :class:`~gipkg.api.Parametrizer`)."""
-        from gipkg.parametrizers.variational.multipliers import Rounds
         from gipkg.parametrizers.variational.optimal_map import least_distorted_map
 
-        open_weight = self.shape_weight is None
-        weight = _SHAPE_WEIGHT if self.shape_weight is None else self.shape_weight
-        rounds = self.rounds
-        if rounds is None:
-            rounds = _ROUNDS if open_weight else 0
         return least_distorted_map(
             mesh,
             area_weight=1.0,
-            shape_weight=weight,
+            shape_weight=_SHAPE_WEIGHT if self.shape_weight is None else self.shape_weight,
             max_iterations=self.max_iterations,
             tolerance=self.tolerance,
-            rounds=Rounds(
-                rounds,
-                self.face_tolerance,
-                least_shape=_LEAST_SHAPE_WEIGHT if open_weight else weight,
-                pushes_a_level=_FEW_PUSHES if open_weight else _PUSHES,
-                trials=self.trials,
-            )
-            if rounds
-            else None,
+            rounds=self._rounds(),
             callback=callback,
             exact_areas=self.exact_areas,
         )
+
+    def _rounds(self) -> Rounds | None:
+        """Say what rounds are asked for: short ones, to the tolerance, with an open weight."""
+        from gipkg.parametrizers.variational.multipliers import Rounds
+
+        open_weight = self.shape_weight is None
+        count = self.rounds
+        if count is None:
+            count = _ROUNDS if open_weight else 0
+        if count == 0:
+            return None
+        rounds = Rounds(count, self.face_tolerance, shape_falls=open_weight, trials=self.trials)
+        if open_weight:
+            rounds = replace(rounds, pushes_a_level=_FEW_PUSHES, steps_a_push=_SHORT_PUSHES)
+        return rounds

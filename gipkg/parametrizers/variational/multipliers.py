@@ -18,9 +18,9 @@ weigh several times more from then on, and less again, by and by, where they are
 chaotic one: a map that is still far from the tolerance at its end is given another, with pushes
 that grow by another share.
 
-The same way leads to the few percent that are enough for most uses, in a fraction of the time: the
-levels alone end at a better minimum than a descent does, with the weight on shape that was asked
-for. Where that is still too far off, shape weighs less from round to round.
+The same way leads to the few percent that are enough for most uses, in a fraction of the time: a
+few short pushes a level, and from there down to the tolerance, since not the least energy counts
+but the areas. Where that does not reach it, rounds go on, and shape weighs less after each.
 
 References
 ----------
@@ -34,7 +34,9 @@ Reports on Progress in Physics 2015.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from math import ceil
 
 import numpy as np
@@ -42,20 +44,18 @@ from numpy.typing import NDArray
 
 from gipkg.compilation import compiled
 from gipkg.parametrizers.sphere.area_residual import area_residual
-from gipkg.parametrizers.sphere.areas import signed_spherical_areas
 from gipkg.parametrizers.variational.energy import MapEnergy
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.parametrizers.variational.quasi_newton import run
+from gipkg.parametrizers.variational.settling import face_ratios, face_std, settle, settle_within
 
 SMOOTH = 1.0
 """Weight of shape at whose minimum the pushes begin."""
 _LEVELS = tuple(np.geomspace(SMOOTH, 1e-4, 10))
 """Weights of shape on the way down."""
-_PUSHES_A_ROUND, _STEPS_A_PUSH = 20, 15
-_RUNS_BACK, _STEPS_BACK, _LEAST_GAIN = 4, 20, 0.05
-"""Without a push, at the end of a round; the share of the energy that a run has to gain."""
-_SHAPE_LEFT = 0.1
-"""Of the weight of shape, after a round, while it is above the least."""
+_PUSHES_A_ROUND = 20
+_SHAPE_LEFT, _LEAST_SHAPE = 0.1, 1e-7
+"""Of the weight of shape, after a round, where it may fall; and in the end."""
 _ALL_ROUNDS, _LEAST_ROUNDS = 2_000, 0.1
 """Vertices up to which all rounds are taken; a larger mesh takes fewer in proportion, at least this
 share of them."""
@@ -84,30 +84,44 @@ class Rounds:
         a mesh of more than 2,000 vertices fewer in proportion, at least a tenth.
     face_tolerance : float
         Standard deviation of the faces' area ratios that is small enough.
-    least_shape : float
-        Down to which the weight of shape falls, a tenth of it left after each round.
-    pushes_a_level : int
-        On the way down to the first round.
+    shape_falls : bool
+        Only areas count, until they are within the tolerance, and shape weighs a tenth after each
+        round; else a map is as good as its energy is low.
+    pushes_a_level, steps_a_push : int
+        Pushes on the way down to the first round; steps of the run that follows a push, there and
+        in rounds.
     trials : int
         Ways taken at most; another one only while more than four times the tolerance is left.
     """
 
     count: int
     face_tolerance: float
-    least_shape: float
+    shape_falls: bool = False
     pushes_a_level: int = 5
+    steps_a_push: int = 15
     trials: int = 1
 
+    def error(self, energy: MapEnergy) -> Callable[[NDArray[np.float64]], float]:
+        """Say what maps (V, 3) are compared by."""
+        return partial(face_std, energy) if self.shape_falls else energy.value
 
-def face_std(energy: MapEnergy, sphere: NDArray[np.float64]) -> float:
-    """Measure the standard deviation of the faces' area ratios of a map (V, 3)."""
-    return float(_ratios(energy, sphere).std())
+    def enough(self, energy: MapEnergy, sphere: NDArray[np.float64]) -> bool:
+        """Say whether the areas of a pushed map (V, 3) leave nothing to push against."""
+        return self.shape_falls and face_std(energy, sphere) <= self.face_tolerance
+
+    def settled(
+        self, descent: Descent, energy: MapEnergy, sphere: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Descend from a pushed map (V, 3) without the push."""
+        if self.shape_falls:
+            return settle_within(descent, energy, sphere, self.face_tolerance)
+        return settle(descent, energy, sphere)
 
 
 def toward_exact_face_areas(
     descent: Descent, energy: MapEnergy, sphere: NDArray[np.float64], rounds: Rounds
 ) -> NDArray[np.float64]:
-    """Bring a smooth map near to exact face areas; the map of least energy met is kept.
+    """Bring a smooth map near to exact face areas; the best map met is kept.
 
     Parameters
     ----------
@@ -121,12 +135,12 @@ def toward_exact_face_areas(
     Returns
     -------
     (V, 3) float64 array
-        Unit vectors, no flipped face; of least energy with the least weight on shape.
+        Unit vectors, no flipped face.
     """
-    best, goal = sphere, replace(energy, shape=min(rounds.least_shape, energy.shape))
+    best = sphere
     for trial in range(rounds.trials):
-        found = _along(descent, energy, goal, sphere, _SHARE * _LESS**trial, rounds)
-        best = min(best, found, key=goal.value)
+        found = _along(descent, energy, sphere, _SHARE * _LESS**trial, rounds)
+        best = min(best, found, key=rounds.error(energy))
         if face_std(energy, best) <= _FAR_FROM_TOLERANCE * rounds.face_tolerance:
             break
     return best
@@ -135,31 +149,32 @@ def toward_exact_face_areas(
 def _along(
     descent: Descent,
     energy: MapEnergy,
-    goal: MapEnergy,
     sphere: NDArray[np.float64],
     share: float,
     rounds: Rounds,
 ) -> NDArray[np.float64]:
-    """Go one way of pushes from a smooth map (V, 3); the map nearest to the goal is kept."""
-    descent.damping = _START_DAMPING
+    """Go one way of pushes from a smooth map (V, 3); the best map met is kept."""
+    descent.damping, error = _START_DAMPING, rounds.error(energy)
     pushed = _Pushed.at(sphere, len(energy.faces))
     for shape in _LEVELS:
-        if shape > energy.shape:
-            level = replace(energy, shape=shape)
-            for _ in range(rounds.pushes_a_level):
-                pushed.push(descent, level, share)
-    best = min(sphere, _let_go(descent, energy, pushed.sphere), key=goal.value)
+        if shape <= energy.shape or rounds.enough(energy, pushed.sphere):
+            break
+        level = replace(energy, shape=shape)
+        for _ in range(rounds.pushes_a_level):
+            pushed.push(descent, level, share, rounds.steps_a_push)
+    best = min(sphere, rounds.settled(descent, energy, pushed.sphere), key=error)
     part = min(1.0, max(_ALL_ROUNDS / len(sphere), _LEAST_ROUNDS))
     for _ in range(ceil(part * rounds.count)):
         if face_std(energy, best) <= rounds.face_tolerance:
             break
         for _ in range(_PUSHES_A_ROUND):
-            pushed.push(descent, energy, share)
+            pushed.push(descent, energy, share, rounds.steps_a_push)
         share = max(_LESS * share, _LEAST_SHARE)
-        freed = _let_go(descent, energy, pushed.sphere)
-        pushed.weigh(_ratios(energy, freed) - 1)
-        best = min(best, freed, key=goal.value)
-        energy = replace(energy, shape=max(_SHAPE_LEFT * energy.shape, goal.shape))
+        freed = rounds.settled(descent, energy, pushed.sphere)
+        pushed.weigh(face_ratios(energy, freed) - 1)
+        best = min(best, freed, key=error)
+        if rounds.shape_falls:
+            energy = replace(energy, shape=max(_SHAPE_LEFT * energy.shape, _LEAST_SHAPE))
     return best
 
 
@@ -186,11 +201,11 @@ class _Pushed:
         """Begin without a push, all faces alike."""
         return cls(sphere, np.zeros(faces), np.zeros(faces), np.ones(faces))
 
-    def push(self, descent: Descent, energy: MapEnergy, share: float) -> None:
+    def push(self, descent: Descent, energy: MapEnergy, share: float, steps: int) -> None:
         """Follow the minimum; add a share of the errors that it leaves to the shifts."""
         pushing = replace(energy, shifts=self.shifts, weights=self.weights * energy.weights)
-        self.sphere = run(descent, pushing, self.sphere, _STEPS_A_PUSH)
-        errors = _residuals(_ratios(energy, self.sphere))
+        self.sphere = run(descent, pushing, self.sphere, steps)
+        errors = _residuals(face_ratios(energy, self.sphere))
         momentum = _MOMENTUM if self.growth @ errors > 0 else 0.0
         self.growth = share * errors + momentum * self.growth
         self.shifts = self.shifts + self.growth
@@ -206,24 +221,6 @@ class _Pushed:
         self.weights = np.clip(before * np.where(far, _HEAVIER, _LIGHTER), 1.0, _HEAVIEST)
         self.shifts = self.shifts * before / self.weights
         self.growth = self.growth * before / self.weights
-
-
-def _let_go(
-    descent: Descent, energy: MapEnergy, sphere: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Descend from a pushed map (V, 3) without the push, while that gains."""
-    value, damping = energy.value(sphere), descent.damping
-    for _ in range(_RUNS_BACK):
-        sphere, before = run(descent, energy, sphere, _STEPS_BACK), value
-        value = energy.value(sphere)
-        if value > (1 - _LEAST_GAIN) * before:
-            break
-    descent.damping = damping
-    return sphere
-
-
-def _ratios(energy: MapEnergy, sphere: NDArray[np.float64]) -> NDArray[np.float64]:
-    return signed_spherical_areas(sphere, energy.faces) / energy.targets
 
 
 @compiled

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import trimesh
@@ -19,7 +18,6 @@ from gipkg.parametrizers.variational.exact_areas import with_exact_vertex_areas
 from gipkg.parametrizers.variational.multipliers import (
     SMOOTH,
     Rounds,
-    face_std,
     toward_exact_face_areas,
 )
 from gipkg.parametrizers.variational.newton import Descent
@@ -64,9 +62,8 @@ def least_distorted_map(
     tolerance : float
         Relative decrease of the energy that ends the descent.
     rounds : Rounds, optional
-        In place of the descent, where they keep its weight on shape; where that may fall, only
-        after a descent that was not enough. The two measures of area distortion weigh alike in
-        them.
+        In place of the descent from the smooth map on. The two measures of area distortion weigh
+        alike in them.
     exact_areas : bool
         End on exact areas of all vertices.
     callback : callable, optional
@@ -95,14 +92,11 @@ def least_distorted_map(
     with threadpool_limits(limits=1):
         sphere = embed(vertices, faces, energy.targets)
         descent = Descent(faces, len(order), callback and _in_order(callback, order))
-        smooth = _smooth_map(descent, energy, sphere, max_iterations, tolerance)
-        sphere = smooth
-        shape_falls = rounds is not None and rounds.least_shape < energy.shape
-        if rounds is None or shape_falls:
+        smooth = _toward_shape(descent, energy, SMOOTH, sphere, max_iterations, tolerance)
+        if rounds is None:
             sphere = _descend(descent, energy, smooth, max_iterations, tolerance)
-        if rounds and not (shape_falls and face_std(energy, sphere) <= rounds.face_tolerance):
-            freed = toward_exact_face_areas(descent, _of_both_measures(energy), smooth, rounds)
-            sphere = min(freed, sphere, key=partial(face_std, energy))
+        else:
+            sphere = toward_exact_face_areas(descent, _of_both_measures(energy), smooth, rounds)
         if exact_areas:
             true = areas * (4 * np.pi / areas.sum())
             sphere = with_exact_vertex_areas(energy, sphere, true, tolerance)
@@ -140,20 +134,21 @@ def _in_single(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return values.astype(np.float32).astype(np.float64)
 
 
-def _smooth_map(
+def _toward_shape(
     descent: Descent,
     energy: MapEnergy,
-    start: NDArray[np.float64],
+    shape: float,
+    sphere: NDArray[np.float64],
     max_iterations: int,
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """Descend to where shape weighs most on the way; no step is taken where it weighs more."""
-    if energy.shape >= SMOOTH:
-        return start
+    """Descend a little with a weight of shape on the way down to that of the energy."""
+    if energy.shape >= shape:
+        return sphere
     return descent.minimize(
-        replace(energy, shape=SMOOTH),
-        start,
-        max_iterations=min(_PATH_ITERATIONS, max_iterations),
+        replace(energy, shape=shape),
+        sphere,
+        max_iterations=min(_PATH_ITERATIONS, max_iterations - descent.iterations),
         tolerance=max(tolerance, _PATH_TOLERANCE),
     )
 
@@ -165,15 +160,8 @@ def _descend(
     max_iterations: int,
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """Follow the minimum from much weight on shape down to the weight that was asked for."""
-    sphere = smooth
-    if energy.shape < _BETWEEN:
-        sphere = descent.minimize(
-            replace(energy, shape=_BETWEEN),
-            sphere,
-            max_iterations=min(_PATH_ITERATIONS, max_iterations - descent.iterations),
-            tolerance=max(tolerance, _PATH_TOLERANCE),
-        )
+    """Follow the minimum from a smooth map down to the weight of shape that was asked for."""
+    sphere = _toward_shape(descent, energy, _BETWEEN, smooth, max_iterations, tolerance)
     return descent.minimize(
         energy,
         sphere,

@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from gipkg.parametrizers.sphere.areas import flipped_faces, signed_spherical_areas
-from gipkg.parametrizers.variational import multipliers
+from gipkg.parametrizers.sphere.areas import flipped_faces
+from gipkg.parametrizers.variational import multipliers, settling
 from gipkg.parametrizers.variational.newton import Descent
 from gipkg.parametrizers.variational.quasi_newton import run
+from gipkg.parametrizers.variational.settling import face_ratios, face_std
 
-_PUSHES_A_LEVEL = multipliers.Rounds(0, 0.0, 1.0).pushes_a_level
+_PUSHES_A_LEVEL = multipliers.Rounds(0, 0.0).pushes_a_level
 
 
 @pytest.fixture(scope="module")
@@ -23,24 +24,14 @@ def smooth(small_problem):
     return replace(energy, shape=1e-7), sphere
 
 
-def _ratios(energy, sphere) -> np.ndarray:
-    return signed_spherical_areas(sphere, energy.faces) / energy.targets
-
-
-def _face_std(energy, sphere) -> float:
-    return float(_ratios(energy, sphere).std())
-
-
-def _rounds(
-    energy, sphere, rounds: int, face_tolerance: float = 0.0, trials=1, least_shape=1.0
-) -> np.ndarray:
+def _rounds(energy, sphere, rounds: int, face_tolerance: float = 0.0, **further) -> np.ndarray:
     descent = Descent(energy.faces, len(sphere))
     with threadpool_limits(limits=1):  # for the same bits every time
         return multipliers.toward_exact_face_areas(
             descent,
             energy,
             sphere,
-            multipliers.Rounds(rounds, face_tolerance, least_shape, trials=trials),
+            multipliers.Rounds(rounds, face_tolerance, **further),
         )
 
 
@@ -57,11 +48,11 @@ def test_rounds_lead_nearer_than_a_descent_never_higher_and_flip_no_face(smooth)
 
 def test_rounds_end_at_the_tolerance(smooth) -> None:
     energy, sphere = smooth
-    wanted = 0.9 * _face_std(energy, _rounds(energy, sphere, 1))
+    wanted = 0.9 * face_std(energy, _rounds(energy, sphere, 1))
     ended = _rounds(energy, sphere, 12, wanted)
-    assert _face_std(energy, ended) <= wanted
+    assert face_std(energy, ended) <= wanted
     rounds = next(k for k in range(12) if np.array_equal(_rounds(energy, sphere, k), ended))
-    assert _face_std(energy, _rounds(energy, sphere, rounds - 1)) > wanted
+    assert face_std(energy, _rounds(energy, sphere, rounds - 1)) > wanted
 
 
 def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) -> None:
@@ -72,7 +63,7 @@ def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) ->
     assert levels == sorted(levels, reverse=True)
     expected = np.repeat(levels, _PUSHES_A_LEVEL)
     back = next(k for k, (one, *_) in enumerate(calls[len(expected) :]) if one.shifts.any())
-    assert 1 <= back <= multipliers._RUNS_BACK
+    assert 1 <= back <= settling._RUNS
     del calls[len(expected) : len(expected) + back]
     pushes = calls[: len(expected) + multipliers._PUSHES_A_ROUND]
     weights = [pushed.shape for pushed, *_ in pushes]
@@ -81,7 +72,7 @@ def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) ->
     growth, momenta = np.zeros(len(energy.faces)), set()
     for (before, _, reached, damping), (after, start, _, _) in pairwise(pushes):
         assert start is reached
-        errors = multipliers._residuals(_ratios(energy, reached))
+        errors = multipliers._residuals(face_ratios(energy, reached))
         momentum = 0.5 * (growth @ errors > 0)
         momenta.add(momentum)
         growth = multipliers._SHARE * errors + momentum * growth
@@ -93,25 +84,65 @@ def test_shape_weighs_less_and_less_and_the_pushes_go_on(smooth, monkeypatch) ->
     assert not any(back.shifts.any() for back, *_ in calls[len(pushes) :])
 
 
-def test_shape_weighs_a_tenth_after_each_round_down_to_the_least(smooth, monkeypatch) -> None:
+def test_shape_weighs_a_tenth_after_each_round_where_it_may_fall(smooth, monkeypatch) -> None:
     energy, sphere = smooth
     calls = _noted(monkeypatch)
-    found = _rounds(replace(energy, shape=1e-2), sphere, 4, least_shape=3e-4)
-    weights = [one.shape for one, *_ in calls if one.shape <= 1e-2]
-    expected = [1e-2, 1e-2, 1e-3, 3e-4, 3e-4]  # back from the levels, then the rounds
-    np.testing.assert_allclose(list(dict.fromkeys(weights)), [1e-2, 1e-3, 3e-4])
-    pushes = [one.shape for one, *_ in calls if one.shape <= 1e-2 and one.shifts.any()]
-    np.testing.assert_allclose(pushes, np.repeat(expected[1:], multipliers._PUSHES_A_ROUND))
-    kept = _rounds(replace(energy, shape=1e-2), sphere, 4)
-    assert _face_std(energy, found) < 0.8 * _face_std(energy, kept)
+    found = _rounds(replace(energy, shape=1e-5), sphere, 4, shape_falls=True)
+    pushes = [one.shape for one, *_ in calls if one.shape <= 1e-5 and one.shifts.any()]
+    expected = [1e-5, 1e-6, 1e-7, 1e-7]
+    np.testing.assert_allclose(pushes, np.repeat(expected, multipliers._PUSHES_A_ROUND))
+    kept = _rounds(replace(energy, shape=1e-5), sphere, 4)
+    assert face_std(energy, found) < face_std(energy, kept)
+
+
+def test_where_shape_may_fall_the_way_ends_as_soon_as_areas_are_within_the_tolerance(
+    smooth, monkeypatch
+) -> None:
+    energy, sphere = smooth
+    energy = replace(energy, shape=1e-3)
+    wanted = 0.8 * face_std(energy, _rounds(energy, sphere, 0, shape_falls=True))
+    calls = _noted(monkeypatch)
+    found = _rounds(energy, sphere, 12, wanted, shape_falls=True)
+    assert face_std(energy, found) <= wanted
+    freed = [reached for one, _, reached, _ in calls if not one.shifts.any()][1:]
+    assert freed[-1] is calls[-1][2] is found
+    assert min(face_std(energy, one) for one in freed[:-1]) > wanted
+
+
+def test_levels_end_where_there_is_nothing_left_to_push_against(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    calls = _noted(monkeypatch)
+    few = {"shape_falls": True, "pushes_a_level": 2}
+    energy, wanted = replace(energy, shape=1e-3), 0.4 * face_std(energy, sphere)
+    _rounds(energy, sphere, 0, wanted, **few)
+    pushes = [(one.shape, reached) for one, _, reached, _ in calls if one.shape > 1e-3]
+    left = [face_std(energy, reached) for _, reached in pushes[1::2]]
+    assert 1 < len(left) < 7
+    assert left[-1] <= wanted < min(left[:-1])
+    calls.clear()
+    _rounds(energy, sphere, 0, wanted, pushes_a_level=2)
+    assert sum(one.shape > 1e-3 for one, *_ in calls) == 2 * 7
+
+
+def test_pushes_take_as_many_steps_as_they_are_told(smooth, monkeypatch) -> None:
+    energy, sphere = smooth
+    told = []
+
+    def noting(descent, energy, start, steps):
+        told.append(steps)
+        return run(descent, energy, start, steps)
+
+    monkeypatch.setattr(multipliers, "run", noting)
+    _rounds(energy, sphere, 1, pushes_a_level=1, steps_a_push=4)
+    assert told == [4] * (len(multipliers._LEVELS) + multipliers._PUSHES_A_ROUND)
 
 
 def test_no_round_is_taken_where_the_levels_are_enough(smooth, monkeypatch) -> None:
     energy, sphere = smooth
     levels = _rounds(energy, sphere, 0)
-    assert _face_std(energy, levels) < 0.5 * _face_std(energy, sphere)
+    assert face_std(energy, levels) < 0.5 * face_std(energy, sphere)
     shares = _noted_shares(monkeypatch)
-    enough = _rounds(energy, sphere, 3, 1.01 * _face_std(energy, levels))
+    enough = _rounds(energy, sphere, 3, 1.01 * face_std(energy, levels))
     np.testing.assert_array_equal(enough, levels)
     assert len(shares) == len(multipliers._LEVELS) * _PUSHES_A_LEVEL
 
@@ -146,7 +177,7 @@ def test_weights_rule_the_pushes_of_later_rounds_and_not_the_way_back(smooth, mo
             freed = reached if in_rounds else None
             continue
         if freed is not None:  # a round begins
-            expected.weigh(_ratios(energy, freed) - 1)
+            expected.weigh(face_ratios(energy, freed) - 1)
             freed = None
         np.testing.assert_allclose(one.weights, expected.weights * energy.weights)
         heaviest.add(expected.weights.max())
@@ -180,7 +211,7 @@ def test_another_way_is_taken_while_far_more_than_the_tolerance_is_left(
 ) -> None:
     energy, sphere = smooth
     once = _rounds(energy, sphere, 1)
-    left = _face_std(energy, once)
+    left = face_std(energy, once)
     shares = _noted_shares(monkeypatch)
     near = _rounds(energy, sphere, 1, left / 3.9, trials=3)
     np.testing.assert_array_equal(near, once)
@@ -200,7 +231,7 @@ def test_a_push_that_got_stuck_is_halved(smooth, monkeypatch) -> None:
     freed = _rounds(energy, sphere, 1)
     stuck = next(k for k, (*_, damping) in enumerate(calls) if damping > multipliers._STUCK)
     (before, _, reached, _), (after, start, _, _) = calls[stuck : stuck + 2]
-    pushed = before.shifts + 1e4 * multipliers._residuals(_ratios(energy, reached))
+    pushed = before.shifts + 1e4 * multipliers._residuals(face_ratios(energy, reached))
     np.testing.assert_allclose(after.shifts, multipliers._LEFT * pushed)
     assert start is reached
     assert energy.value(freed) <= energy.value(sphere)
@@ -217,6 +248,7 @@ def _noted(monkeypatch) -> list[tuple]:
         return point
 
     monkeypatch.setattr(multipliers, "run", noting)
+    monkeypatch.setattr(settling, "run", noting)
     return calls
 
 
@@ -225,9 +257,9 @@ def _noted_shares(monkeypatch) -> list[float]:
     shares = []
     push = multipliers._Pushed.push
 
-    def noting(pushed, descent, energy, share):
+    def noting(pushed, descent, energy, share, steps):
         shares.append(share)
-        push(pushed, descent, energy, share)
+        push(pushed, descent, energy, share, steps)
 
     monkeypatch.setattr(multipliers._Pushed, "push", noting)
     return shares
